@@ -1,0 +1,86 @@
+#include "server/planning/cornering.h"
+
+#include <algorithm>
+
+#include "server/planning/leg_profile.h"
+#include "server/planning/search.h"
+
+namespace kcs::planning {
+namespace {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+// Time from the middle of a leg to the corner, or from the corner to the middle, if the leg's other end had a corner
+// like this one.
+double half_leg_time(const Leg& leg, const CornerMotion& motion) {
+  const LegEnd end = leg_end(motion, leg);
+  const double way = leg.length - 2 * motion.length;
+  const double peak = peak_speed(leg, end, end, way);
+  const motion::Ramp ramp = ramp_from(leg, end, peak);
+  return ramp.duration + std::max(0.0, way / 2 - ramp.distance) / peak;
+}
+
+bool fits_half(const Leg& leg, const CornerMotion& motion) {
+  const LegEnd end = leg_end(motion, leg);
+  return 2 * (motion.length + ramp_from(leg, end, end.level).distance) <= leg.length;
+}
+
+// Time over both half legs with the corner as fast as they let it be.
+double trial_time(const CornerGeometry& corner, const Cornering& cornering) {
+  const double speed = largest_true(0, cornering.max_speed(), [&](double v) {
+    const CornerMotion motion = cornering.at(v);
+    return fits_half(corner.in, motion) && fits_half(corner.out, motion);
+  });
+  const CornerMotion motion = cornering.at(speed);
+  return half_leg_time(corner.in, motion) + motion.duration + half_leg_time(corner.out, motion);
+}
+
+}  // namespace
+
+double Cornering::max_speed() const {
+  return std::visit(Overloaded{[](const ExactStop&) { return 0.0; }, [](const Passage& way) { return way.speed; },
+                               [](const auto& way) { return way.max_speed(); }},
+                    way_);
+}
+
+CornerMotion Cornering::at(double speed) const {
+  return std::visit(Overloaded{[](const ExactStop&) { return CornerMotion{}; },
+                               [&](const Passage&) { return CornerMotion{.speed = speed}; },
+                               [&](const auto& way) { return way.at(speed); }},
+                    way_);
+}
+
+double Cornering::speed_at_level(double level, double leg_jerk) const {
+  return std::visit(
+      Overloaded{[](const ExactStop&) { return 0.0; }, [&](const Passage& way) { return std::min(way.speed, level); },
+                 [&](const auto& way) { return std::min(way.max_speed(), way.speed_at_level(level, leg_jerk)); }},
+      way_);
+}
+
+void Cornering::append_phases(const CornerGeometry& corner, double speed, std::vector<motion::Phase>& phases) const {
+  std::visit(Overloaded{[](const ExactStop&) {}, [](const Passage&) {},
+                        [&](const auto& way) { way.append_phases(corner, speed, phases); }},
+             way_);
+}
+
+CornerStrategy Cornering::strategy() const {
+  if (std::holds_alternative<ExactStop>(way_)) return CornerStrategy::kExactStop;
+  return std::holds_alternative<Uninterrupted>(way_) ? CornerStrategy::kUninterrupted : CornerStrategy::kInterrupted;
+}
+
+Cornering choose_cornering(const CornerGeometry& corner, CornerStrategy strategy, const AxisLimits& limits) {
+  if (corner.straight()) return Cornering(Passage{std::min(corner.in.feed, corner.out.feed)});
+  if (strategy == CornerStrategy::kExactStop || corner.cut == 0) return {};
+  const Cornering interrupted{Interrupted(corner, limits)};
+  if (strategy == CornerStrategy::kInterrupted) return interrupted;
+  const Cornering uninterrupted{Uninterrupted(corner, limits)};
+  if (strategy == CornerStrategy::kUninterrupted) return uninterrupted;
+  return trial_time(corner, interrupted) <= trial_time(corner, uninterrupted) ? interrupted : uninterrupted;
+}
+
+}  // namespace kcs::planning

@@ -1,0 +1,87 @@
+#include "server/planning/lookahead.h"
+
+#include <algorithm>
+
+#include "server/planning/leg_profile.h"
+#include "server/planning/search.h"
+
+namespace kcs::planning {
+namespace {
+
+const Cornering kRest;
+
+// One leg with the corners at its ends.
+struct Span {
+  const Leg& leg;
+  const Cornering& entry;
+  const Cornering& exit;
+
+  bool possible(double entry_speed, double exit_speed) const {
+    return needed_length(leg, entry.at(entry_speed), exit.at(exit_speed)) <= leg.length;
+  }
+  double entry_level(double speed) const { return entry.at(speed).level(leg.jerk); }
+  double exit_level(double speed) const { return exit.at(speed).level(leg.jerk); }
+};
+
+class LookAhead {
+ public:
+  LookAhead(std::span<const Leg> legs, std::span<const Cornering> cornerings) : legs_(legs), cornerings_(cornerings) {
+    for (const Cornering& cornering : cornerings) speeds_.push_back(cornering.max_speed());
+  }
+
+  std::vector<double> run() {
+    for (std::size_t i = 0; i < legs_.size(); ++i) level(i);
+    for (std::size_t i = legs_.size(); i-- > 1;) brake(i);
+    for (std::size_t i = 0; i < legs_.size(); ++i) accelerate(i);
+    return std::move(speeds_);
+  }
+
+ private:
+  Span span(std::size_t i) const { return {legs_[i], i == 0 ? kRest : cornerings_[i - 1], cornerings_[i]}; }
+  double entry_speed(std::size_t i) const { return i == 0 ? 0 : speeds_[i - 1]; }
+
+  // Lowers the greatest speeds of both corners to a common level that the leg can carry.
+  void level(std::size_t i) {
+    const Span span = this->span(i);
+    const double entry_cap = span.entry.max_speed(), exit_cap = span.exit.max_speed();
+    if (span.possible(entry_cap, exit_cap)) return;
+    const auto entry_at = [&](double level) { return span.entry.speed_at_level(level, span.leg.jerk); };
+    const auto exit_at = [&](double level) { return span.exit.speed_at_level(level, span.leg.jerk); };
+    const double common = largest_true(0, std::max(span.entry_level(entry_cap), span.exit_level(exit_cap)),
+                                       [&](double level) { return span.possible(entry_at(level), exit_at(level)); });
+    if (i > 0) speeds_[i - 1] = std::min(speeds_[i - 1], entry_at(common));
+    speeds_[i] = std::min(speeds_[i], exit_at(common));
+  }
+
+  // Lowers the entry of leg i until the tool can brake to its exit.
+  void brake(std::size_t i) {
+    const Span span = this->span(i);
+    double& entry = speeds_[i - 1];
+    const double exit = speeds_[i];
+    if (span.possible(entry, exit) || span.entry_level(entry) <= span.exit_level(exit)) return;
+    const double equal = std::min(entry, span.entry.speed_at_level(span.exit_level(exit), span.leg.jerk));
+    entry = largest_true(equal, entry, [&](double speed) { return span.possible(speed, exit); });
+  }
+
+  // Lowers the exit of leg i until it can be reached from its entry.
+  void accelerate(std::size_t i) {
+    const Span span = this->span(i);
+    const double entry = entry_speed(i);
+    double& exit = speeds_[i];
+    if (span.possible(entry, exit)) return;
+    const double equal = std::min(exit, span.exit.speed_at_level(span.entry_level(entry), span.leg.jerk));
+    exit = largest_true(equal, exit, [&](double speed) { return span.possible(entry, speed); });
+  }
+
+  std::span<const Leg> legs_;
+  std::span<const Cornering> cornerings_;
+  std::vector<double> speeds_;
+};
+
+}  // namespace
+
+std::vector<double> corner_speeds(std::span<const Leg> legs, std::span<const Cornering> cornerings) {
+  return LookAhead(legs, cornerings).run();
+}
+
+}  // namespace kcs::planning

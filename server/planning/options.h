@@ -1,0 +1,35 @@
+// What a plan is asked to keep to.
+#pragma once
+
+#include "server/motion/limits.h"
+#include "server/planning/range.h"
+
+namespace kcs::planning {
+
+using motion::AxisLimits;
+using motion::Vector;
+
+// What a tolerance limits at a corner.
+enum class ToleranceKind {
+  // The largest distance from the smoothed curve to the programmed path. At a symmetric corner that is
+  // ε·cos(θ2/2), so the corner may be cut deeper than the tolerance.
+  kContourError,
+  // The distance from the programmed corner to the middle of the smoothed corner (the paper's ε).
+  kCornerDistance,
+};
+
+// How corners are taken (Tajima and Sencer 2016).
+enum class CornerStrategy {
+  kAuto,           // the faster of the next two, for each corner
+  kInterrupted,    // section 2.2: no acceleration where the corner begins and ends
+  kUninterrupted,  // section 2.3: brakes into the corner, accelerates out of it
+  kExactStop,      // rests on the corner point
+};
+
+struct PlanOptions {
+  AxisLimits limits;
+  ToleranceKind tolerance_kind = ToleranceKind::kContourError;
+  CornerStrategy strategy = CornerStrategy::kAuto;
+};
+
+}  // namespace kcs::planning

@@ -1,0 +1,35 @@
+// What is to be moved along: straight segments with what the program says about each.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "server/motion/phase.h"
+
+namespace kcs::planning {
+
+using motion::Vector;
+
+// A straight move from the end of the segment before it (or the start of the path).
+struct Segment {
+  Vector end = Vector::Zero();  // mm
+  double feed = 0;              // mm/s along the path, > 0; +infinity: as fast as the axes' velocity limits allow
+  double tolerance = 0;         // mm, ≥ 0, at its corners; a corner keeps the smaller one of its two segments'
+  double dwell = 0;             // s, ≥ 0; how long the tool stays at the end; more than 0 implies `stop`
+  std::uint32_t line = 0;       // of the program, from 1; 0: not known
+  bool stop = false;            // the tool comes to rest on the end exactly
+};
+
+// What is nearer than this to the point before it, mm, does not move: no machine resolves a picometre.
+inline constexpr double kNoLength = 1e-9;
+
+// A tool path: the tool starts at rest at `start` and comes to rest at the end of the last segment.
+// Segments of no length are allowed; their stops and dwells count, but they are not counted as segments.
+struct Toolpath {
+  Vector start = Vector::Zero();  // mm
+  std::vector<Segment> segments;
+
+  const Vector& start_of(std::size_t segment) const { return segment == 0 ? start : segments[segment - 1].end; }
+};
+
+}  // namespace kcs::planning

@@ -1,0 +1,16 @@
+// Is there anything in a request that cannot be planned?
+#pragma once
+
+#include "server/planning/options.h"
+#include "server/planning/toolpath.h"
+
+namespace kcs::planning {
+
+// A refused path names this many places at the most.
+inline constexpr std::size_t kMaxViolations = 20;
+
+// Throws InvalidInput unless every number is finite and in its range and the path has a segment. Fields are named
+// "limits.jerk[1]" and "path, segment 17, feed".
+void validate(const Toolpath& path, const PlanOptions& options);
+
+}  // namespace kcs::planning

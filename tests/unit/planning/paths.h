@@ -1,0 +1,32 @@
+// Small tool paths for tests.
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+#include "server/planning/planner.h"
+
+namespace kcs::planning {
+
+// From zero through `points` at one feed and tolerance.
+inline Toolpath path_through(std::initializer_list<Vector> points, double feed, double tolerance) {
+  Toolpath path;
+  for (const Vector& point : points) path.segments.push_back({.end = point, .feed = feed, .tolerance = tolerance});
+  return path;
+}
+
+// Two legs of 10 mm, the first along X, that meet at `degrees`.
+inline Toolpath two_legs(double degrees, double tolerance, double feed = 100) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return path_through({{10, 0, 0}, {10 + 10 * std::cos(angle), 10 * std::sin(angle), 0}}, feed, tolerance);
+}
+
+// Two axes with the same limits; velocities that no feed of these tests reaches.
+inline PlanOptions options_for(double acceleration, double jerk, ToleranceKind kind, CornerStrategy strategy) {
+  return {.limits = {2, Vector::Constant(1000), Vector::Constant(acceleration), Vector::Constant(jerk)},
+          .tolerance_kind = kind,
+          .strategy = strategy};
+}
+
+}  // namespace kcs::planning
