@@ -1,0 +1,52 @@
+// Reads an RS-274 program (G-code) into a tool path.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "server/gcode/interpreter.h"
+#include "server/gcode/lines.h"
+#include "server/gcode/notices.h"
+#include "server/gcode/options.h"
+#include "server/gcode/words.h"
+#include "server/planning/toolpath.h"
+
+namespace kcs::gcode {
+
+// Give it the program in pieces, cut anywhere, then call finish(). How the program is cut makes no difference to the
+// path. Beside the path, the reader needs memory for one line only.
+//
+// The program starts with G17 G21 G40 G49 G54 G64 G80 G90 G91.1 G94, and with no feed set. Lines that begin with '/'
+// are skipped. The program ends with M2, M30 or a second '%'; what follows is not read.
+//
+// Both calls throw planning::InvalidInput, with the place in the program, if the program cannot be read or not be
+// followed safely, and CapReached, which is one, at a cap of the options. After that the reader must not be used.
+class Reader {
+ public:
+  // Sets the start of `path` and appends segments to it; `path` must outlive the reader.
+  Reader(const Options& options, planning::Toolpath& path);
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  void read(std::string_view piece);
+  void finish();
+
+  // What the author of the program should know, in the order of the program.
+  const std::vector<Notice>& notices() const { return notices_.list(); }
+
+  // Largest distance between an arc and its chords, mm; 0 without arcs.
+  double largest_chord_error() const { return interpreter_.largest_chord_error(); }
+
+ private:
+  void read_line(std::string_view text, std::uint32_t number);
+
+  Notices notices_;
+  Interpreter interpreter_;
+  Lines lines_;
+  Words words_;
+  bool has_begun_ = false;  // with '%' or a word
+  bool has_ended_ = false;
+};
+
+}  // namespace kcs::gcode

@@ -1,0 +1,69 @@
+// One line of a program, taken apart into words: a letter and a number each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "server/gcode/place.h"
+
+namespace kcs::gcode {
+
+// A set of letters A to Z, one bit each.
+using Letters = std::uint32_t;
+
+constexpr Letters letters(std::string_view list) {
+  Letters set = 0;
+  for (const char letter : list) set |= Letters{1} << (letter - 'A');
+  return set;
+}
+
+// Axes that no machine of kcs has: rotary ones, and second linear ones.
+inline constexpr Letters kMissingAxes = letters("ABCUVW");
+
+// A G or M word.
+struct Code {
+  char letter = 'G';  // G or M
+  int tenths = 0;     // its number times ten: G59.1 is 591
+  Place place;
+};
+
+// The words of one line. Use the same object for line after line: it keeps its memory.
+class Words {
+ public:
+  // Takes a line apart: comments and white space are left out (RS-274 allows blanks anywhere, even inside numbers),
+  // upper and lower case mean the same. Refuses what is no word, control characters, a number that cannot be read,
+  // parameters, expressions, O words, and a letter that comes twice (G and M may).
+  void read(std::string_view text, std::uint32_t line);
+
+  bool has(char letter) const { return has_any(Letters{1} << (letter - 'A')); }
+  bool has_any(Letters set) const { return (present_ & set) != 0; }
+  // The letters of the line other than G and M.
+  Letters present() const { return present_; }
+
+  // For letters that the line has, other than G and M.
+  double value(char letter) const { return values_[index(letter)]; }
+  Place place(char letter) const { return {line_, columns_[index(letter)]}; }
+  // The first word on the line that is one of `set`, which the line must have.
+  Place first_of(Letters set) const;
+
+  // The G and M words in their order.
+  const std::vector<Code>& codes() const { return codes_; }
+
+  // The first word that is not the line's number N; column 1 if there is none.
+  Place start() const { return {line_, start_column_}; }
+
+ private:
+  static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+  void add(char letter, double value, Place place);
+
+  std::uint32_t line_ = 0;
+  std::uint32_t start_column_ = 1;
+  Letters present_ = 0;
+  std::array<double, 26> values_{};
+  std::array<std::uint32_t, 26> columns_{};
+  std::vector<Code> codes_;
+};
+
+}  // namespace kcs::gcode

@@ -1,0 +1,44 @@
+// Reads whole programs for the tests of the G-code reader.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/gcode/options.h"
+#include "server/gcode/reader.h"
+#include "server/planning/invalid_input.h"
+#include "server/planning/toolpath.h"
+
+namespace kcs::gcode {
+
+struct Program {
+  planning::Toolpath path;
+  std::vector<Notice> notices;
+  double chord_error = 0;
+
+  const std::vector<planning::Segment>& segments() const { return path.segments; }
+  const planning::Vector& end() const { return path.segments.back().end; }
+};
+
+inline Program read_program(std::string_view text, const Options& options = {}) {
+  Program program;
+  Reader reader(options, program.path);
+  reader.read(text);
+  reader.finish();
+  program.notices = reader.notices();
+  program.chord_error = reader.largest_chord_error();
+  return program;
+}
+
+// "field: reason" of the refusal of a program; empty if it is accepted.
+inline std::string refusal_of(std::string_view text, const Options& options = {}) {
+  try {
+    read_program(text, options);
+  } catch (const planning::InvalidInput& refusal) {
+    return refusal.what();
+  }
+  return {};
+}
+
+}  // namespace kcs::gcode
