@@ -1,0 +1,109 @@
+#include "client/cli/commands.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "client/cli/corners_table.h"
+#include "client/cli/csv.h"
+#include "client/cli/file_error.h"
+#include "client/cli/gnuplot.h"
+#include "client/cli/json.h"
+#include "client/cli/numbers.h"
+#include "client/cli/pending_file.h"
+#include "client/cli/plan_table.h"
+#include "client/cli/planning_session.h"
+#include "client/cli/plot_script.h"
+#include "client/cli/progress_bar.h"
+
+namespace kcs::cli {
+namespace {
+
+void print(const std::string& text) {
+  if (!(std::cout << text << std::flush)) throw FileError("standard output cannot be written; is the disk full?");
+}
+
+std::string program_name(const Options& options) { return options.file == "-" ? "standard input" : options.file; }
+
+void plan(const Options& options) {
+  PlanningSession session(options);
+  print(options.json
+            ? plan_json(session.plan())
+            : plan_table(program_name(options), session.plan(), session.planner().corners(session.plan().name)));
+}
+
+void corners(const Options& options) {
+  PlanningSession session(options);
+  const std::vector<client::Corner> corners = session.planner().corners(session.plan().name);
+  print(options.json ? corners_json(corners) : corners_table(corners));
+}
+
+void write_setpoints(const Options& options, PlanningSession& session, std::ostream& out) {
+  const client::StreamOptions stream_options{.period_s = options.period_s, .channels = options.channels};
+  auto stream = session.planner().stream_setpoints(session.plan().name, stream_options);
+  ProgressBar bar("setpoints");
+  write_csv(stream, session.plan().options.machine.axes, stream_options, out,
+            [&bar](const client::SetpointBatch& batch) {
+              bar.update(batch.first_index + batch.size(), batch.setpoint_count);
+            });
+}
+
+void stream(const Options& options) {
+  if (options.output == "-") {
+    PlanningSession session(options);
+    return write_setpoints(options, session, std::cout);
+  }
+  PendingFile file(options.output);
+  std::ofstream out(file.path(), std::ios::binary);
+  if (!out) throw FileError(fmt::format("{}: cannot be written; check the folder and its permissions", options.output));
+  PlanningSession session(options);
+  write_setpoints(options, session, out);
+  out.close();
+  file.commit();
+}
+
+PictureFormat picture_format(const std::string& name) {
+  if (name.ends_with(".svg")) return PictureFormat::kSvg;
+  if (name.ends_with(".png")) return PictureFormat::kPng;
+  throw FileError(fmt::format("{}: no such kind of picture; end the name in .svg or .png", name));
+}
+
+void plot(const Options& options) {
+  const PictureFormat format = picture_format(options.output);
+  PlanningSession session(options);
+  const double cycle_time = session.plan().summary.cycle_time_s;
+  const double to = std::min(options.to_s.value_or(cycle_time), cycle_time);
+  if (options.from_s < 0 || options.from_s >= to) {
+    throw client::Error("INVALID_ARGUMENT",
+                        fmt::format("the window from {} s to {} s is empty: --from must be at least 0 "
+                                    "and less than --to and the cycle time, {:.3f} s",
+                                    options.from_s, options.to_s.value_or(cycle_time), cycle_time));
+  }
+  const PlotData data = gather_plot_data(session.planner(), session.plan(), options.from_s, to, options.period_s);
+  const std::string title =
+      fmt::format("{}: {} ({:.3f} s) on {}", std::filesystem::path(program_name(options)).filename().string(),
+                  clock_time(cycle_time), cycle_time, session.plan().options.machine.name);
+  PendingFile file(options.output);
+  run_gnuplot(plot_script(data, session.plan(), title, file.path().string(), format));
+  file.commit();
+}
+
+}  // namespace
+
+void run_command(const Options& options) {
+  switch (options.command) {
+    case Command::kPlan:
+      return plan(options);
+    case Command::kStream:
+      return stream(options);
+    case Command::kCorners:
+      return corners(options);
+    case Command::kPlot:
+      return plot(options);
+  }
+}
+
+}  // namespace kcs::cli

@@ -1,0 +1,39 @@
+// The command line of kcsctl.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/sdk/plan.h"
+#include "client/sdk/setpoint_stream.h"
+
+namespace kcs::cli {
+
+enum class Command { kPlan, kStream, kCorners, kPlot };
+
+struct Options {
+  Command command = Command::kPlan;
+  std::string file;                   // the G-code program; "-": standard input
+  std::string machine = "router";     // a shipped profile's name, or a profile's file name
+  client::PlanOptions plan;           // all but the machine
+  double period_s = 0.001;            // between two setpoints; stream and plot sample at it
+  std::optional<std::string> server;  // HOST:PORT; none: plan inside this process
+
+  bool json = false;                      // plan, corners
+  std::string output;                     // stream, plot; "-": standard output
+  std::vector<client::Channel> channels;  // stream
+  double from_s = 0;                      // plot: the window of time
+  std::optional<double> to_s;             // plot; none: the end
+};
+
+// What was asked for in words: the help text, or what is wrong with the command line.
+struct Message {
+  std::string text;
+  bool is_error = false;
+};
+
+// Reads the command line into `options`. Returns a message if there is nothing to run.
+std::optional<Message> parse_command_line(int argc, const char* const* argv, Options& options);
+
+}  // namespace kcs::cli

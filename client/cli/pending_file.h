@@ -1,0 +1,30 @@
+// A file that appears under its name only when it is complete.
+#pragma once
+
+#include <filesystem>
+
+namespace kcs::cli {
+
+// Stands for a temporary file beside the final one. commit() gives it the final name in one step, replacing what was
+// there; if it never comes to that, the temporary file is removed. What is not an ordinary file (/dev/null, a pipe) is
+// written in place.
+class PendingFile {
+ public:
+  // The final name.
+  explicit PendingFile(const std::filesystem::path& name);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  // Where to write.
+  const std::filesystem::path& path() const { return path_; }
+
+  // Call it when everything is written and closed. Throws std::filesystem::filesystem_error.
+  void commit();
+
+ private:
+  std::filesystem::path name_;
+  std::filesystem::path path_;
+};
+
+}  // namespace kcs::cli

@@ -1,0 +1,31 @@
+#include "client/gateway/periodic_timer.h"
+
+#include <cerrno>
+#include <cmath>
+#include <ctime>
+
+namespace kcs::gateway {
+namespace {
+
+constexpr std::int64_t kNanoseconds = 1'000'000'000;  // in a second
+
+std::int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec * kNanoseconds + time.tv_nsec;
+}
+
+}  // namespace
+
+PeriodicTimer::PeriodicTimer(double period_s) : period_(period_s * static_cast<double>(kNanoseconds)), start_(now()) {}
+
+std::int64_t PeriodicTimer::wait() {
+  ++ticks_;
+  const std::int64_t deadline = start_ + std::llround(static_cast<double>(ticks_) * period_);
+  const timespec wake_at = {.tv_sec = deadline / kNanoseconds, .tv_nsec = deadline % kNanoseconds};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake_at, nullptr) == EINTR) {
+  }
+  return now() - deadline;
+}
+
+}  // namespace kcs::gateway

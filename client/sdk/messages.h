@@ -1,0 +1,24 @@
+// Between the library's structs and the messages of the contract. Used inside the library alone.
+#pragma once
+
+#include <cstddef>
+
+#include "client/sdk/plan.h"
+#include "client/sdk/setpoint_stream.h"
+#include "kcs/v1/planning.pb.h"
+
+namespace kcs::client {
+
+v1::PlanOptions to_message(const PlanOptions& options);
+v1::StreamSetpointsRequest to_message(const std::string& plan, const StreamOptions& options);
+
+// The points [first, first + count) of a path with `axes` numbers a point, and what belongs to them.
+v1::PathChunk to_message(const PointPath& path, std::size_t axes, std::size_t first, std::size_t count);
+
+Plan from_message(const v1::Plan& message);
+Corner from_message(const v1::Corner& message);
+
+// Fills `batch`, reusing its memory.
+void from_message(const v1::SetpointBatch& message, SetpointBatch& batch);
+
+}  // namespace kcs::client

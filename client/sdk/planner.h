@@ -1,0 +1,65 @@
+// The C++ client of the planning service.
+//
+//   kcs::client::Planner planner("localhost:50051");
+//   const kcs::client::Plan plan = planner.plan_gcode(file, options);
+//   auto stream = planner.stream_setpoints(plan.name, {.period_s = 0.001});
+//   for (kcs::client::SetpointBatch batch; stream.next(batch);) use(batch);
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/sdk/error.h"
+#include "client/sdk/machine.h"
+#include "client/sdk/plan.h"
+#include "client/sdk/setpoint_stream.h"
+
+namespace grpc {
+class Channel;
+}
+
+namespace kcs::client {
+
+// Asks a server to plan tool paths, and for the setpoints and corners of its plans. Calls may be made from several
+// threads at once. Every call throws Error if the server refuses it or does not answer.
+class Planner {
+ public:
+  // The server at `address`, "HOST:PORT" or "unix:/path/of/socket". Does not connect yet: the first call does, and each
+  // call gives up after `patience` if no server can be reached meanwhile.
+  explicit Planner(const std::string& address, std::chrono::milliseconds patience = std::chrono::seconds(5));
+
+  // A server behind a channel made elsewhere, for instance one inside this process.
+  explicit Planner(std::shared_ptr<grpc::Channel> channel);
+
+  Planner(Planner&&) noexcept;
+  Planner& operator=(Planner&&) noexcept;
+  ~Planner();
+
+  // Plans a G-code program, read from `program` in pieces as it is sent: it may be larger than the memory.
+  // Waits until the plan is made and verified. Throws std::ios_base::failure if the program cannot be read.
+  Plan plan_gcode(std::istream& program, const PlanOptions& options);
+
+  // Plans a path of points.
+  Plan plan_points(const PointPath& path, const PlanOptions& options);
+
+  // A plan that the server keeps. Throws Error ("NOT_FOUND") if it does not.
+  Plan get(const std::string& name);
+
+  // Makes the server forget a plan. Throws Error ("NOT_FOUND") if it does not keep it.
+  void remove(const std::string& name);
+
+  // How every corner of a plan is taken and what it costs, in the order of the path.
+  std::vector<Corner> corners(const std::string& name);
+
+  // Starts to sample a plan. The planner may go before the stream does.
+  SetpointStream stream_setpoints(const std::string& name, const StreamOptions& options);
+
+ private:
+  class Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace kcs::client

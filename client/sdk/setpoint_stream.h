@@ -1,0 +1,60 @@
+// Setpoints of a plan as they arrive from the server.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace kcs::client {
+
+// What a setpoint carries beside the position.
+enum class Channel { kVelocity, kAcceleration, kJerk };
+
+struct StreamOptions {
+  double period_s = 0.001;          // between two setpoints, 1e-5 to 10
+  std::uint64_t first_index = 0;    // first setpoint wanted
+  std::vector<Channel> channels;    // wanted beside the position
+  std::uint32_t batch_size = 4096;  // setpoints in a batch, 1 to 65536: small for latency, large for throughput
+  std::uint64_t last_index = 0;     // last setpoint wanted; 0 or beyond the end: to the end
+};
+
+// The values of one quantity: columns[axis][k] is that of setpoint first_index + k.
+using Columns = std::vector<std::vector<double>>;
+
+// Consecutive setpoints. Setpoint i belongs to the time i × period.
+struct SetpointBatch {
+  std::uint64_t first_index = 0;
+  Columns position_mm;
+  Columns velocity_mm_s;  // this and the next two: empty unless asked for
+  Columns acceleration_mm_s2;
+  Columns jerk_mm_s3;
+  bool end_of_path = false;          // the last setpoint of this batch is the exact end of the path
+  std::uint64_t setpoint_count = 0;  // of the whole plan at this period
+
+  // Number of setpoints in this batch.
+  std::size_t size() const { return position_mm.empty() ? 0 : position_mm.front().size(); }
+};
+
+// A running stream of setpoints; made by Planner::stream_setpoints. Destroying it cancels it, so the server stops
+// computing as soon as nobody reads. The server sends no faster than next() is called.
+class SetpointStream {
+ public:
+  class Call;  // the running call; known to the library alone
+  explicit SetpointStream(std::unique_ptr<Call> call);
+  SetpointStream(SetpointStream&&) noexcept;
+  SetpointStream& operator=(SetpointStream&&) noexcept;
+  ~SetpointStream();
+
+  // Waits for the next batch and puts it into `batch`, reusing its memory. False when the stream has ended after its
+  // last batch. Throws Error if it broke off; it can then be taken up again at the next index with a new stream.
+  bool next(SetpointBatch& batch);
+
+  // Breaks the stream off: a next() that is waiting in another thread throws Error ("CANCELLED").
+  void cancel();
+
+ private:
+  std::unique_ptr<Call> call_;
+};
+
+}  // namespace kcs::client

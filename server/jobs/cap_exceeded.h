@@ -1,0 +1,20 @@
+// A request that is fine in itself, but too much for this server.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace kcs::jobs {
+
+// Thrown when a request passes a cap of the server. what() names the cap, its value and the remedy.
+class CapExceeded : public std::runtime_error {
+ public:
+  // `cap`: its name in the configuration file. `remedy`: a sentence without its full stop, such as "try again later".
+  CapExceeded(std::string_view cap, std::uint64_t value, std::string_view remedy)
+      : std::runtime_error("the server's cap " + std::string(cap) + " = " + std::to_string(value) +
+                           " is reached: " + std::string(remedy)) {}
+};
+
+}  // namespace kcs::jobs

@@ -1,0 +1,48 @@
+// The plans that the server keeps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "server/jobs/plan_request.h"
+
+namespace kcs::jobs {
+
+// Plans by their names, in memory, within a bound on their number and on their size. Where a new one needs room, the
+// one that was not used for longest goes: its request makes it again. Safe for use by many threads at once.
+class PlanStore {
+ public:
+  PlanStore(std::size_t max_plans, std::uint64_t max_bytes);
+
+  // The plan, which counts as used now; null if it is not kept.
+  PlanPointer find(const std::string& name);
+
+  // Keeps `plan`. Throws CapExceeded if it is larger than the whole store.
+  void keep(PlanPointer plan);
+
+  // Forgets the plan; whoever holds it keeps it alive. False if it is not kept.
+  bool forget(const std::string& name);
+
+ private:
+  struct Entry {
+    PlanPointer plan;
+    std::uint64_t bytes;
+  };
+  using Entries = std::list<Entry>;
+
+  // Takes the entry out of the store.
+  Entry remove(Entries::iterator entry);
+
+  const std::size_t max_plans_;
+  const std::uint64_t max_bytes_;
+  std::mutex mutex_;
+  Entries entries_;  // used latest first
+  std::unordered_map<std::string, Entries::iterator> by_name_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace kcs::jobs

@@ -1,0 +1,27 @@
+// What one kcsd takes on, at most. Every cap can be set in the configuration file, under the same name.
+#pragma once
+
+#include <cstdint>
+
+namespace kcs::service {
+
+// A request that passes a cap is refused with RESOURCE_EXHAUSTED, and the answer names the cap.
+struct Caps {
+  // Points of one tool path; for G-code its straight segments, arcs counted as their chords. 64 bytes each.
+  std::uint64_t points_per_plan = 1'000'000;
+  // Text of one G-code program.
+  std::uint64_t gcode_bytes = 64 << 20;
+  // One message of a client. gRPC's own default, which its clients keep to as well.
+  std::uint64_t message_bytes = 4 << 20;
+  // Plans kept for GetPlan and the streams. Beyond either number the plan that was not used for longest is forgotten.
+  std::uint64_t stored_plans = 1'000;
+  std::uint64_t stored_bytes = std::uint64_t{2} << 30;
+  // Requests that wait for a planning thread.
+  std::uint64_t queue_length = 128;
+  // Calls of CreatePlan under way at the same time; each may hold a whole tool path.
+  std::uint64_t uploads = 128;
+  // Calls of StreamSetpoints and DescribeCorners under way at the same time; each holds one batch and a thread.
+  std::uint64_t streams = 1'000;
+};
+
+}  // namespace kcs::service

@@ -1,0 +1,150 @@
+#include "server/service/path_decoder.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "server/jobs/cap_exceeded.h"
+#include "server/planning/range.h"
+
+namespace kcs::service {
+namespace {
+
+namespace range = planning::range;
+using Numbers = google::protobuf::RepeatedField<double>;
+
+// The field and the place inside it. `point`: index in the whole path.
+std::string place(const char* field, std::uint64_t point) {
+  return point == 0 ? fmt::format("{}, start", field) : fmt::format("{}, segment {}", field, point - 1);
+}
+
+// The number of one point, where a single number may stand for all of them.
+double shared_or_own(const Numbers& numbers, int point) { return numbers[numbers.size() == 1 ? 0 : point]; }
+
+}  // namespace
+
+void PathDecoder::add(const v1::PathChunk& chunk) {
+  Violations violations;
+  const int axes = static_cast<int>(options_.planning.limits.axes);
+  const int points = chunk.points_mm_size() / axes;
+  if (points_ + static_cast<std::uint64_t>(points) > max_points_) {
+    throw jobs::CapExceeded("points_per_plan", max_points_, "send the program in parts");
+  }
+  check_sizes(chunk, points, violations);
+  violations.refuse();
+
+  for (int point = 0; point < points && !violations.full(); ++point) {
+    if (points_ == 0 && point == 0) {
+      path_.start = decode_point(chunk, point, violations);
+    } else {
+      path_.segments.push_back(decode_segment(chunk, point, violations));
+    }
+  }
+  violations.refuse();
+  decode_stops(chunk, points, violations);
+  violations.refuse();
+  points_ += static_cast<std::uint64_t>(points);
+}
+
+planning::Toolpath PathDecoder::finish() {
+  if (points_ < 2) {
+    refuse("path.points_mm", fmt::format("the path has {} points: give at least two, the start and the end", points_));
+  }
+  return std::move(path_);
+}
+
+void PathDecoder::check_sizes(const v1::PathChunk& chunk, int points, Violations& violations) const {
+  const std::size_t axes = options_.planning.limits.axes;
+  if (static_cast<std::size_t>(chunk.points_mm_size()) % axes != 0) {
+    violations.add("path.points_mm", fmt::format("has {} numbers in a chunk, no multiple of the machine's {} axes: "
+                                                 "send every point whole",
+                                                 chunk.points_mm_size(), axes));
+  }
+  const auto check = [points, &violations](const char* field, int size, bool may_be_single) {
+    if (size == 0 || size == points || (size == 1 && may_be_single)) return;
+    violations.add(field, fmt::format("has {} numbers in a chunk of {} points: give one per point{}", size, points,
+                                      may_be_single ? ", a single one or none" : " or none"));
+  };
+  check("path.feed_mm_s", chunk.feed_mm_s_size(), true);
+  check("path.tolerance_mm", chunk.tolerance_mm_size(), true);
+  check("path.line", chunk.line_size(), false);
+  const bool has_segments = points > (points_ == 0 ? 1 : 0);
+  if (chunk.feed_mm_s().empty() && !options_.feed && has_segments) {
+    violations.add("path.feed_mm_s", "is missing: give one per point or a single one, or set options.feed_mm_s");
+  }
+}
+
+planning::Vector PathDecoder::decode_point(const v1::PathChunk& chunk, int point, Violations& violations) const {
+  const int axes = static_cast<int>(options_.planning.limits.axes);
+  planning::Vector vector = planning::Vector::Zero();
+  for (int axis = 0; axis < axes; ++axis) {
+    const double coordinate = chunk.points_mm(point * axes + axis);
+    if (!(coordinate >= -range::kCoordinate && coordinate <= range::kCoordinate)) {
+      violations.check_range(place("path.points_mm", points_ + static_cast<std::uint64_t>(point)), coordinate,
+                             -range::kCoordinate, range::kCoordinate, "mm");
+    }
+    vector[axis] = coordinate + 0.0;  // no −0: it would be the same request with another plan
+  }
+  return vector;
+}
+
+planning::Segment PathDecoder::decode_segment(const v1::PathChunk& chunk, int point, Violations& violations) const {
+  const std::uint64_t index = points_ + static_cast<std::uint64_t>(point);
+  planning::Segment segment;
+  segment.end = decode_point(chunk, point, violations);
+  if (!chunk.feed_mm_s().empty()) {
+    segment.feed = shared_or_own(chunk.feed_mm_s(), point);
+    if (!(segment.feed >= range::kMinFeed && segment.feed <= range::kMaxFeed)) {
+      violations.check_range(place("path.feed_mm_s", index), segment.feed, range::kMinFeed, range::kMaxFeed, "mm/s");
+    }
+  }
+  segment.feed = options_.feed.value_or(segment.feed);
+  segment.tolerance = options_.tolerance;
+  if (!chunk.tolerance_mm().empty()) {
+    segment.tolerance = shared_or_own(chunk.tolerance_mm(), point);
+    if (!(segment.tolerance >= 0 && segment.tolerance <= range::kMaxTolerance)) {
+      violations.check_range(place("path.tolerance_mm", index), segment.tolerance, 0, range::kMaxTolerance, "mm");
+    }
+  }
+  if (!chunk.line().empty()) {
+    segment.line = chunk.line(point);
+    if (segment.line == 0) {
+      violations.add(place("path.line", index), "is 0: lines count from 1; leave the array empty if they are unknown");
+    }
+  }
+  return segment;
+}
+
+void PathDecoder::decode_stops(const v1::PathChunk& chunk, int points, Violations& violations) {
+  for (int i = 0; i < chunk.stops_size() && !violations.full(); ++i) {
+    const v1::Stop& stop = chunk.stops(i);
+    const std::string field = fmt::format("path.stops[{}]", i);
+    if (stop.point() >= static_cast<std::uint32_t>(points)) {
+      violations.add(field + ".point",
+                     fmt::format("is {} in a chunk of {} points: count from 0 within the chunk", stop.point(), points));
+      continue;
+    }
+    if (!violations.check_range(field + ".dwell_s", stop.dwell_s(), 0, range::kMaxDwell, "s")) continue;
+    if (points_ + stop.point() == 0) {
+      // The tool rests at the start anyway. To stay there is a segment of no length.
+      if (stop.dwell_s() > 0) {
+        path_.segments.insert(path_.segments.begin(), {.end = path_.start,
+                                                       .feed = std::numeric_limits<double>::infinity(),
+                                                       .tolerance = options_.tolerance,
+                                                       .dwell = stop.dwell_s(),
+                                                       .stop = true});
+      }
+      continue;
+    }
+    planning::Segment& segment =
+        path_.segments[path_.segments.size() - static_cast<std::size_t>(points) + stop.point()];
+    if (segment.stop) violations.add(field + ".point", fmt::format("{} has a stop already: give one", stop.point()));
+    segment.stop = true;
+    segment.dwell = stop.dwell_s();
+  }
+}
+
+}  // namespace kcs::service

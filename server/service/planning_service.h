@@ -1,0 +1,44 @@
+// The methods of kcs.v1.PlanningService: decode, call, encode.
+#pragma once
+
+#include <grpcpp/support/byte_buffer.h>
+#include <kcs/v1/planning.grpc.pb.h>
+
+#include <string>
+
+#include "server/jobs/plan_desk.h"
+#include "server/service/caps.h"
+#include "server/service/gate.h"
+
+namespace kcs::service {
+
+class PlanningService final : public v1::PlanningService::Service {
+ public:
+  // Keeps references to both.
+  PlanningService(jobs::PlanDesk& desk, const Caps& caps);
+
+  grpc::Status GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest* request, v1::Plan* plan) override;
+  grpc::Status DeletePlan(grpc::ServerContext* context, const v1::DeletePlanRequest* request,
+                          google::protobuf::Empty* nothing) override;
+  grpc::Status StreamSetpoints(grpc::ServerContext* context, const v1::StreamSetpointsRequest* request,
+                               grpc::ServerWriter<v1::SetpointBatch>* writer) override;
+  grpc::Status DescribeCorners(grpc::ServerContext* context, const v1::DescribeCornersRequest* request,
+                               grpc::ServerWriter<v1::CornerBatch>* writer) override;
+
+ private:
+  using UploadReader = grpc::ServerReader<grpc::ByteBuffer>;
+
+  // Stands in for CreatePlan. It parses the messages itself, because gRPC's own reader takes one that it cannot parse
+  // for the end of the upload: the beginning of a path would be planned as if it were the whole.
+  grpc::Status create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan);
+
+  // Throws planning::InvalidInput without a name, NotKept if there is no such plan.
+  jobs::PlanPointer find(const std::string& name);
+
+  jobs::PlanDesk& desk_;
+  const Caps& caps_;
+  Gate uploads_;
+  Gate streams_;
+};
+
+}  // namespace kcs::service

@@ -1,0 +1,130 @@
+#include "server/service/server.h"
+
+#include <grpc/grpc.h>
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <future>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "server/jobs/plan_desk.h"
+#include "server/service/planning_service.h"
+#include "server/service/running_calls.h"
+
+namespace kcs::service {
+namespace {
+
+// Threads for calls beside the uploads and the streams: the short ones, health, reflection.
+constexpr int kSpareThreads = 64;
+constexpr int kKeepaliveMs = 30'000;
+constexpr int kKeepaliveTimeoutMs = 10'000;
+constexpr std::chrono::milliseconds kDownCheck{20};
+constexpr std::chrono::seconds kLinger{1};
+constexpr int kMinPingIntervalMs = 5'000;
+
+std::size_t thread_count(std::size_t wanted) {
+  return wanted > 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
+}
+
+bool is_unix(const std::string& listen) { return listen.starts_with("unix:"); }
+
+void require_address(const std::string& listen) {
+  const std::size_t colon = listen.rfind(':');
+  const bool has_port = colon != std::string::npos && colon > 0 && colon + 1 < listen.size() &&
+                        listen.find_first_not_of("0123456789", colon + 1) == std::string::npos;
+  if (listen.empty() || is_unix(listen) || has_port) return;
+  throw std::runtime_error("cannot listen on \"" + listen + "\": give HOST:PORT or unix:PATH");
+}
+
+grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const Caps& caps) {
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ResourceQuota quota("kcsd");
+  quota.SetMaxThreads(static_cast<int>(caps.uploads + caps.streams) + kSpareThreads);
+  builder.SetResourceQuota(quota);
+  builder.SetMaxReceiveMessageSize(static_cast<int>(caps.message_bytes));
+  // A port that another server listens on is an error, not shared.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  // A client that vanished without a word does not hold its stream for ever; one that pings for its own sake may.
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kMinPingIntervalMs);
+  return builder;
+}
+
+}  // namespace
+
+struct Server::Parts {
+  explicit Parts(const ServerOptions& options)
+      : caps(options.caps),
+        desk({thread_count(options.planning_threads), caps.queue_length, caps.stored_plans, caps.stored_bytes}),
+        service(desk, caps) {}
+
+  const Caps caps;
+  jobs::PlanDesk desk;
+  PlanningService service;
+  RunningCalls running;
+  std::string address;
+  std::unique_ptr<grpc::Server> server;
+  std::mutex stopping;
+  std::future<void> down;  // of the server, once it is told to stop
+};
+
+Server::Server(const ServerOptions& options) {
+  require_address(options.listen);
+  parts_ = std::make_unique<Parts>(options);
+  grpc::ServerBuilder builder;
+  configure(builder, options.caps).RegisterService(&parts_->service);
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(parts_->running.counter());
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
+  int port = 0;
+  if (!options.listen.empty()) builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
+  parts_->server = builder.BuildAndStart();
+  if (parts_->server == nullptr || (!options.listen.empty() && port == 0)) {
+    throw std::runtime_error("cannot listen on " + options.listen +
+                             ": is another program using it, or is it no address of this machine? Choose another one");
+  }
+  parts_->address = options.listen.empty() || is_unix(options.listen)
+                        ? options.listen
+                        : options.listen.substr(0, options.listen.rfind(':') + 1) + std::to_string(port);
+  parts_->server->GetHealthCheckService()->SetServingStatus(v1::PlanningService::service_full_name(), true);
+}
+
+Server::~Server() { stop(std::chrono::milliseconds(0)); }
+
+const std::string& Server::address() const { return parts_->address; }
+
+std::shared_ptr<grpc::Channel> Server::in_process_channel() {
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(-1);  // a plan of many notices is no threat within a process
+  return parts_->server->InProcessChannel(arguments);
+}
+
+void Server::stop(std::chrono::milliseconds grace) {
+  const std::lock_guard lock(parts_->stopping);
+  if (parts_->down.valid()) return;
+  parts_->server->GetHealthCheckService()->Shutdown();
+  parts_->down = std::async(std::launch::async, [server = parts_->server.get(), grace] {
+    server->Shutdown(std::chrono::system_clock::now() + grace);
+  });
+  // Shutdown() waits for the connections as well, and an idle or silent one stays for as long as it likes. Once no call
+  // has run for a while, so that the last answers have gone out, they are cut.
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  const auto last = now() + grace + 2 * kLinger;
+  auto busy = now();
+  while (parts_->down.wait_for(kDownCheck) != std::future_status::ready && now() < last) {
+    if (!parts_->running.none()) busy = now();
+    if (now() - busy > kLinger) grpc_server_cancel_all_calls(parts_->server->c_server());
+  }
+}
+
+}  // namespace kcs::service

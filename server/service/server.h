@@ -1,0 +1,50 @@
+// The whole planning service in one object: the planning threads, the store of plans, and the gRPC server in front.
+#pragma once
+
+#include <grpcpp/channel.h>
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "server/service/caps.h"
+
+namespace kcs::service {
+
+struct ServerOptions {
+  // "HOST:PORT" (port 0: any free one), "unix:PATH", or empty: no socket at all, only in_process_channel().
+  std::string listen = "127.0.0.1:50551";
+  // Threads that plan; 0: one for each processor. The plans do not depend on it.
+  std::size_t planning_threads = 0;
+  Caps caps;
+};
+
+// Serves from construction until stop() or destruction. Its methods may be called from any thread.
+// Logs to spdlog's default logger: a program that keeps its standard output for results sends that one elsewhere.
+class Server {
+ public:
+  // Throws std::runtime_error, with the address and the remedy, if it cannot listen there.
+  explicit Server(const ServerOptions& options);
+  // Stops without grace.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  // Where clients reach it, with the port that was really taken; empty without a socket.
+  const std::string& address() const;
+
+  // A channel to this server that needs no socket. Close its calls before the server goes.
+  std::shared_ptr<grpc::Channel> in_process_channel();
+
+  // Takes no new requests, lets the running ones finish for up to `grace`, then cancels them. Returns when they have
+  // ended, at the latest two seconds after the grace: a call whose client takes nothing from its connection may still
+  // hang then, and a thread may still be making a plan. The destructor waits for both. Calling it again does nothing.
+  void stop(std::chrono::milliseconds grace);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace kcs::service

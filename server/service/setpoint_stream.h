@@ -1,0 +1,33 @@
+// The setpoints of a plan, batch by batch, computed as they are asked for.
+#pragma once
+
+#include <kcs/v1/planning.pb.h>
+
+#include <cstdint>
+
+#include "server/jobs/plan_request.h"
+#include "server/motion/sampler.h"
+
+namespace kcs::service {
+
+// Holds its plan: it may be forgotten meanwhile. Its memory is that of one batch at most, whatever the plan's length.
+class SetpointStream {
+ public:
+  // Throws planning::InvalidInput for a period, a range or a channel that cannot be served.
+  SetpointStream(jobs::PlanPointer plan, const v1::StreamSetpointsRequest& request);
+
+  // Fills `batch` with the next setpoints; false if there are none left. Giving the same batch again saves allocations.
+  bool next(v1::SetpointBatch& batch);
+
+ private:
+  jobs::PlanPointer plan_;
+  motion::Sampler sampler_;
+  bool velocity_ = false;
+  bool acceleration_ = false;
+  bool jerk_ = false;
+  std::uint64_t next_ = 0;  // index of the next setpoint
+  std::uint64_t end_ = 0;   // one past the last one wanted
+  std::uint64_t batch_size_;
+};
+
+}  // namespace kcs::service

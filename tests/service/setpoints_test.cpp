@@ -1,0 +1,195 @@
+// StreamSetpoints: which setpoints come, and that they are the same whenever they come.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/service/test_server.h"
+
+namespace kcs::service::test {
+namespace {
+
+class Setpoints : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto plan = server_.create({request(options(3)), request(path({0, 0, 0, 10, 0, 1, 10, 10, 2, -3, 4, 0.1}))});
+    ASSERT_TRUE(plan.status.ok()) << plan.status.error_message();
+    plan_ = plan.message;
+  }
+
+  std::vector<v1::SetpointBatch> stream(const v1::StreamSetpointsRequest& request) {
+    auto answer = server_.stream(request);
+    EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
+    return answer.message;
+  }
+
+  v1::StreamSetpointsRequest every_millisecond() const { return setpoints(plan_.name(), 0.001); }
+
+  TestServer server_;
+  v1::Plan plan_;
+};
+
+TEST_F(Setpoints, GoFromTheStartToTheExactEnd) {
+  const auto batches = stream(every_millisecond());
+  const auto count = static_cast<std::size_t>(std::ceil(plan_.summary().cycle_time_s() / 0.001)) + 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto numbers = column(batches, axis);
+    ASSERT_EQ(numbers.size(), count);
+    EXPECT_EQ(numbers.front(), plan_.summary().start_mm(axis));
+    EXPECT_EQ(numbers.back(), plan_.summary().end_mm(axis));
+  }
+  EXPECT_EQ(batches.back().setpoint_count(), count);
+  EXPECT_TRUE(batches.back().end_of_path());
+}
+
+TEST_F(Setpoints, BatchesAreConsecutiveAndOfTheSizeAskedFor) {
+  auto request = every_millisecond();
+  request.set_batch_size(7);
+  std::uint64_t next = 0;
+  const auto batches = stream(request);
+  ASSERT_GT(batches.size(), 2U);
+  for (const v1::SetpointBatch& batch : batches) {
+    const bool last = &batch == &batches.back();
+    EXPECT_EQ(batch.first_index(), next);
+    EXPECT_EQ(batch.end_of_path(), last);
+    EXPECT_EQ(batch.setpoint_count(), batches.back().setpoint_count());
+    if (!last) {
+      EXPECT_EQ(batch.position_mm(0).values_size(), 7);
+    }
+    next += static_cast<std::uint64_t>(batch.position_mm(0).values_size());
+  }
+  EXPECT_EQ(next, batches.back().setpoint_count());
+}
+
+TEST_F(Setpoints, DoNotDependOnTheBatchSize) {
+  const auto expected = column(stream(every_millisecond()), 1);
+  for (const std::uint32_t size : {1U, 13U, 65536U}) {
+    auto request = every_millisecond();
+    request.set_batch_size(size);
+    EXPECT_EQ(column(stream(request), 1), expected) << size;
+  }
+}
+
+TEST_F(Setpoints, ResumeAnywhereWithTheSameNumbers) {
+  auto request = every_millisecond();
+  request.add_channels(v1::CHANNEL_JERK);
+  const auto whole = stream(request);
+  const auto position = column(whole, 2);
+  const auto jerk = column(whole, 2, &v1::SetpointBatch::jerk_mm_s3);
+  for (std::size_t first = 0; first < position.size(); first += 17) {
+    request.set_first_index(first);
+    const auto rest = stream(request);
+    EXPECT_EQ(rest.front().first_index(), first);
+    EXPECT_EQ(column(rest, 2),
+              std::vector<double>(position.begin() + static_cast<std::ptrdiff_t>(first), position.end()));
+    EXPECT_EQ(column(rest, 2, &v1::SetpointBatch::jerk_mm_s3),
+              std::vector<double>(jerk.begin() + static_cast<std::ptrdiff_t>(first), jerk.end()));
+  }
+}
+
+TEST_F(Setpoints, EndAtTheLastIndexAskedFor) {
+  const auto whole = column(stream(every_millisecond()), 0);
+  auto request = every_millisecond();
+  request.set_first_index(10);
+  request.set_last_index(20);
+  const auto part = stream(request);
+  EXPECT_EQ(column(part, 0), std::vector<double>(whole.begin() + 10, whole.begin() + 21));
+  EXPECT_FALSE(part.back().end_of_path());
+  request.set_last_index(1'000'000'000'000);
+  EXPECT_EQ(column(stream(request), 0).size(), whole.size() - 10);
+}
+
+TEST_F(Setpoints, CarryTheChannelsAskedForAndNoOthers) {
+  auto request = every_millisecond();
+  request.add_channels(v1::CHANNEL_VELOCITY);
+  request.add_channels(v1::CHANNEL_JERK);
+  request.add_channels(v1::CHANNEL_POSITION);
+  request.add_channels(v1::CHANNEL_JERK);
+  for (const v1::SetpointBatch& batch : stream(request)) {
+    EXPECT_EQ(batch.position_mm_size(), 3);
+    EXPECT_EQ(batch.velocity_mm_s_size(), 3);
+    EXPECT_EQ(batch.acceleration_mm_s2_size(), 0);
+    EXPECT_EQ(batch.jerk_mm_s3_size(), 3);
+    EXPECT_EQ(batch.jerk_mm_s3(2).values_size(), batch.position_mm(0).values_size());
+  }
+}
+
+TEST_F(Setpoints, ChannelsAreTheDerivativesOfThePosition) {
+  constexpr double kPeriod = 1e-4;
+  auto request = setpoints(plan_.name(), kPeriod);
+  request.add_channels(v1::CHANNEL_VELOCITY);
+  request.add_channels(v1::CHANNEL_ACCELERATION);
+  const auto batches = stream(request);
+  const auto position = column(batches, 0);
+  const auto velocity = column(batches, 0, &v1::SetpointBatch::velocity_mm_s);
+  const auto acceleration = column(batches, 0, &v1::SetpointBatch::acceleration_mm_s2);
+  for (std::size_t i = 1; i + 2 < position.size(); ++i) {
+    EXPECT_NEAR((position[i + 1] - position[i - 1]) / (2 * kPeriod), velocity[i], 2e5 * kPeriod * kPeriod);
+    EXPECT_NEAR((velocity[i + 1] - velocity[i - 1]) / (2 * kPeriod), acceleration[i], 2e5 * kPeriod);
+  }
+  EXPECT_EQ(velocity.back(), 0);
+  EXPECT_EQ(acceleration.back(), 0);
+}
+
+TEST_F(Setpoints, PeriodLongerThanThePlanGivesItsTwoEnds) {
+  const auto numbers = column(stream(setpoints(plan_.name(), 10)), 0);
+  EXPECT_EQ(numbers, (std::vector<double>{0, -3}));
+}
+
+TEST_F(Setpoints, GoOnWhenThePlanIsDeletedMeanwhile) {
+  auto request = setpoints(plan_.name(), 1e-5);
+  request.set_batch_size(16);
+  Call call;
+  const auto reader = server_.stub().StreamSetpoints(&call, request);
+  v1::SetpointBatch batch;
+  ASSERT_TRUE(reader->Read(&batch));
+  EXPECT_TRUE(server_.remove(plan_.name()).ok());
+  while (reader->Read(&batch)) continue;
+  EXPECT_TRUE(reader->Finish().ok());
+  EXPECT_TRUE(batch.end_of_path());
+}
+
+TEST_F(Setpoints, RefuseWhatCannotBeServed) {
+  const auto refused = [this](const std::string& field, auto change) {
+    auto request = every_millisecond();
+    change(request);
+    EXPECT_TRUE(refuses_field(server_.stream(request).status, field));
+  };
+  for (const double period : {0.0, -1.0, 9e-6, 11.0, double(NAN), double(INFINITY), 1e308}) {
+    refused("period_s", [period](auto& request) { request.set_period_s(period); });
+  }
+  refused("first_index", [](auto& request) { request.set_first_index(1'000'000); });
+  refused("first_index", [](auto& request) { request.set_first_index(~0ULL); });
+  refused("last_index", [](auto& request) {
+    request.set_first_index(20);
+    request.set_last_index(19);
+  });
+  refused("batch_size", [](auto& request) { request.set_batch_size(0); });
+  refused("batch_size", [](auto& request) { request.set_batch_size(65537); });
+  refused("channels[1]", [](auto& request) {
+    request.add_channels(v1::CHANNEL_JERK);
+    request.add_channels(v1::CHANNEL_UNSPECIFIED);
+  });
+  refused("channels[0]", [](auto& request) { request.add_channels(static_cast<v1::Channel>(99)); });
+  refused("name", [](auto& request) { request.clear_name(); });
+  EXPECT_FALSE(stream(every_millisecond()).empty());
+}
+
+TEST_F(Setpoints, CornersAreToldInTheOrderOfThePath) {
+  const auto corners = server_.corners(plan_.name());
+  ASSERT_TRUE(corners.status.ok());
+  ASSERT_EQ(corners.message.size(), 2U);
+  for (std::size_t i = 0; i < corners.message.size(); ++i) {
+    const v1::Corner& corner = corners.message[i];
+    EXPECT_EQ(corner.segment(), i);
+    EXPECT_GT(corner.angle_deg(), 0);
+    EXPECT_LT(corner.angle_deg(), 180);
+    EXPECT_GT(corner.speed_mm_s(), 0);
+    EXPECT_LE(corner.deviation_mm(), 0.01);
+    EXPECT_EQ(corner.deviation_mm(), corner.contour_error_mm());
+    EXPECT_EQ(corner.point_mm_size(), 3);
+  }
+  EXPECT_EQ(corners.message[1].point_mm(2), 2);
+}
+
+}  // namespace
+}  // namespace kcs::service::test

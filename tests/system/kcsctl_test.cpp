@@ -1,0 +1,204 @@
+// The program kcsctl: what it prints and writes, and how it fails, with the service inside and with a real kcsd.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/system/child_process.h"
+
+namespace kcs::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Two legs of 10 mm with a right angle between them, and a quarter of a circle.
+constexpr const char* kProgram = "G21 G90 G64\nG1 X10 Y0 F6000\nG1 X10 Y10\nG2 X20 Y20 I10 J0\n";
+
+struct Result {
+  int exit_code = -1;
+  std::string output;
+  std::string errors;
+};
+
+class Kcsctl : public testing::Test {
+ protected:
+  Kcsctl() {
+    fs::create_directories(folder_);
+    std::ofstream(program()) << kProgram;
+  }
+  ~Kcsctl() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string program() const { return path("part.ngc"); }
+
+  static Result run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), KCSCTL);
+    ChildProcess process(arguments);
+    Result result;
+    for (std::string line = process.read_line(); !line.empty(); line = process.read_line())
+      result.output += line + "\n";
+    result.exit_code = process.wait();
+    result.errors = process.errors();
+    return result;
+  }
+
+  static std::string read(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("kcsctl_test." + std::to_string(::getpid()));
+};
+
+std::vector<std::vector<double>> parse_rows(std::istringstream& csv) {
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(csv, line);) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+TEST_F(Kcsctl, PlanPrintsOneJsonObject) {
+  const Result result = run({"plan", "--json", program()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  const json plan = json::parse(result.output);
+  EXPECT_GT(plan["cycle_time_s"], 0.3);
+  EXPECT_NEAR(plan["path_length_mm"], 20 + 5 * M_PI, 0.01);
+  EXPECT_LE(plan["max_contour_error_mm"], 0.01);
+  EXPECT_GT(plan["time_at_feed_s"], -1e-12);
+  EXPECT_LE(plan["max_feed_mm_s"], 100 * (1 + 1e-9));
+  EXPECT_GE(plan["corner_count"], 1);
+  for (const char* key : {"max_velocity_mm_s", "max_acceleration_mm_s2", "max_jerk_mm_s3"}) {
+    EXPECT_EQ(plan[key].size(), 3) << key;
+  }
+}
+
+TEST_F(Kcsctl, PlanPrintsATable) {
+  const Result result = run({"plan", program()});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("Cycle time"), std::string::npos) << result.output;
+}
+
+TEST_F(Kcsctl, CornersPrintsOneObjectForEachCorner) {
+  const json plan = json::parse(run({"plan", "--json", program()}).output);
+  const json corners = json::parse(run({"corners", "--json", program()}).output);
+  EXPECT_EQ(corners.size(), plan["corner_count"]);
+  EXPECT_EQ(corners[0]["segment"], 0);
+  EXPECT_EQ(corners[0]["line"], 2);
+  EXPECT_NEAR(corners[0]["angle_deg"], 90, 1e-9);
+}
+
+TEST_F(Kcsctl, StreamWritesEvenlySpacedRowsUpToTheExactEnd) {
+  const Result result = run({"stream", program(), "-o", path("out.csv"), "--period", "0.002"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors, "") << "no progress bar where there is no terminal";
+  std::istringstream csv(read(path("out.csv")));
+  std::string header;
+  std::getline(csv, header);
+  EXPECT_EQ(header, "t,x,y,z");
+  const auto rows = parse_rows(csv);
+  const double cycle_time = json::parse(run({"plan", "--json", program()}).output)["cycle_time_s"];
+  EXPECT_EQ(rows.size(), static_cast<std::size_t>(std::ceil(cycle_time / 0.002)) + 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) ASSERT_NEAR(rows[i][0], static_cast<double>(i) * 0.002, 1e-12);
+  EXPECT_EQ(rows.front(), (std::vector<double>{0, 0, 0, 0}));
+  EXPECT_EQ(rows.back()[1], 20);
+  EXPECT_EQ(rows.back()[2], 20);
+  EXPECT_EQ(files(), 2) << "the program and the setpoints, nothing else";
+}
+
+TEST_F(Kcsctl, StreamWritesTheChannelsAskedFor) {
+  const Result result = run({"stream", program(), "-o", "-", "--channels", "velocity,acceleration,jerk"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output.substr(0, result.output.find('\n')), "t,x,y,z,vx,vy,vz,ax,ay,az,jx,jy,jz");
+}
+
+TEST_F(Kcsctl, TwoAxisMachinesHaveNoZ) {
+  const Result result = run({"stream", program(), "-o", "-", "--machine", "tajima-sencer-2016"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output.substr(0, result.output.find('\n')), "t,x,y");
+}
+
+TEST_F(Kcsctl, AFailureLeavesTheOldFileAlone) {
+  std::ofstream(path("out.csv")) << "old";
+  std::ofstream(path("bad.ngc")) << "G1 X1 F100\nG1 X#5\n";
+  const Result result = run({"stream", path("bad.ngc"), "-o", path("out.csv")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(read(path("out.csv")), "old");
+  EXPECT_EQ(files(), 3);
+}
+
+TEST_F(Kcsctl, FaultsOfTheProgramNameFileLineAndColumn) {
+  std::ofstream(path("bad.ngc")) << "G1 X1 F100\nG1 X#5\n";
+  const Result result = run({"plan", path("bad.ngc")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.errors.rfind(path("bad.ngc") + ":2:", 0), 0) << result.errors;
+  EXPECT_EQ(result.output, "");
+}
+
+TEST_F(Kcsctl, ExitCodesTellCausesApart) {
+  EXPECT_EQ(run({"plan", program(), "--tolerance", "-1"}).exit_code, 1);
+  EXPECT_EQ(run({"plan", program(), "--machine", path("none.toml")}).exit_code, 1);
+  EXPECT_EQ(run({"plan", program(), "--strategy", "fast"}).exit_code, 2);
+  EXPECT_EQ(run({}).exit_code, 2);
+  EXPECT_EQ(run({"plan", program(), "--server", "unix:" + path("nobody")}).exit_code, 3);
+  EXPECT_EQ(run({"plan", path("none.ngc")}).exit_code, 4);
+  EXPECT_EQ(run({"stream", program(), "-o", path("no/such/folder.csv")}).exit_code, 4);
+  EXPECT_EQ(run({"plot", program(), "-o", path("plot.pdf")}).exit_code, 4);
+  EXPECT_EQ(run({"--help"}).exit_code, 0);
+}
+
+TEST_F(Kcsctl, AMissingServerIsNamedWithTheRemedy) {
+  const std::string socket = "unix:" + path("nobody");
+  EXPECT_EQ(run({"plan", program(), "--server", socket}).errors,
+            "kcsctl: no kcsd answers at " + socket + "; start one with: kcsd --listen " + socket + "\n");
+}
+
+TEST_F(Kcsctl, TheServiceInsideAndARealServerGiveTheSameBytes) {
+  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0"});
+  const std::string greeting = kcsd.read_line();
+  const std::string address = greeting.substr(greeting.rfind(' ') + 1);
+  const std::vector<std::vector<std::string>> commands = {
+      {"plan", "--json", program()}, {"corners", "--json", program()}, {"stream", program(), "-o", "-"}};
+  for (std::vector<std::string> command : commands) {
+    const Result inside = run(command);
+    command.insert(command.end(), {"--server", address});
+    const Result remote = run(command);
+    EXPECT_EQ(inside.exit_code, 0) << inside.errors;
+    EXPECT_EQ(remote.exit_code, 0) << remote.errors;
+    EXPECT_EQ(inside.output, remote.output) << command[0];
+  }
+  kcsd.send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.wait(), 0);
+}
+
+TEST_F(Kcsctl, PlotDrawsAPicture) {
+  ASSERT_EQ(run({"plot", program(), "-o", path("plot.svg")}).exit_code, 0);
+  const std::string svg = read(path("plot.svg"));
+  EXPECT_LT(svg.size(), 2'000'000);
+  for (const char* text : {"<svg", "X, mm", "speed, mm/s", "acceleration, mm/s²", "jerk, mm/s³", "time, s", "</svg>"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+  ASSERT_EQ(run({"plot", program(), "-o", path("plot.png"), "--from", "0.1", "--to", "0.2"}).exit_code, 0);
+  EXPECT_EQ(read(path("plot.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(run({"plot", program(), "-o", path("none.svg"), "--from", "99"}).exit_code, 1);
+  EXPECT_FALSE(fs::exists(path("none.svg")));
+}
+
+}  // namespace
+}  // namespace kcs::test

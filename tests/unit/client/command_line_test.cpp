@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <vector>
+
+#include "client/cli/options.h"
+
+namespace kcs::cli {
+namespace {
+
+struct Parsed {
+  Options options;
+  std::optional<Message> message;
+};
+
+Parsed parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "kcsctl");
+  Parsed parsed;
+  parsed.message = parse_command_line(static_cast<int>(arguments.size()), arguments.data(), parsed.options);
+  return parsed;
+}
+
+TEST(CommandLine, DefaultsNeedOnlyAFile) {
+  const auto [options, message] = parse({"plan", "part.ngc"});
+  ASSERT_FALSE(message.has_value()) << message->text;
+  EXPECT_EQ(options.command, Command::kPlan);
+  EXPECT_EQ(options.file, "part.ngc");
+  EXPECT_EQ(options.machine, "router");
+  EXPECT_FALSE(options.plan.tolerance_mm.has_value());
+  EXPECT_EQ(options.plan.strategy, client::CornerStrategy::kAuto);
+  EXPECT_FALSE(options.server.has_value());
+}
+
+TEST(CommandLine, EveryOptionArrives) {
+  const auto [options, message] = parse({"stream",       "-",          "-o",
+                                         "out.csv",      "--machine",  "m.toml",
+                                         "--tolerance",  "0.05",       "--tolerance-kind",
+                                         "corner",       "--strategy", "exact-stop",
+                                         "--feed",       "100",        "--start",
+                                         "-1,2,-3.5",    "--server",   "localhost:1",
+                                         "--period",     "0.004",      "--channels",
+                                         "jerk,velocity"});
+  ASSERT_FALSE(message.has_value()) << message->text;
+  EXPECT_EQ(options.command, Command::kStream);
+  EXPECT_EQ(options.file, "-");
+  EXPECT_EQ(options.output, "out.csv");
+  EXPECT_EQ(options.machine, "m.toml");
+  EXPECT_EQ(options.plan.tolerance_mm, 0.05);
+  EXPECT_EQ(options.plan.tolerance_kind, client::ToleranceKind::kCornerDistance);
+  EXPECT_EQ(options.plan.strategy, client::CornerStrategy::kExactStop);
+  EXPECT_EQ(options.plan.feed_mm_s, 100);
+  EXPECT_EQ(options.plan.start_mm, (std::vector<double>{-1, 2, -3.5}));
+  EXPECT_EQ(options.server, "localhost:1");
+  EXPECT_EQ(options.period_s, 0.004);
+  EXPECT_EQ(options.channels, (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity}));
+}
+
+TEST(CommandLine, WrongOnesAreRefused) {
+  for (const std::vector<const char*>& arguments :
+       std::vector<std::vector<const char*>>{{},
+                                             {"plan"},
+                                             {"dance", "part.ngc"},
+                                             {"plan", "part.ngc", "--tolerance", "much"},
+                                             {"plan", "part.ngc", "--strategy", "fast"},
+                                             {"plan", "part.ngc", "--nonsense"},
+                                             {"stream", "part.ngc"},
+                                             {"stream", "part.ngc", "-o", "x.csv", "--channels", "colour"}}) {
+    const auto [options, message] = parse(arguments);
+    ASSERT_TRUE(message.has_value());
+    EXPECT_TRUE(message->is_error) << message->text;
+    EXPECT_EQ(message->text.rfind("kcsctl: ", 0), 0) << message->text;
+  }
+}
+
+TEST(CommandLine, HelpFitsEightyColumns) {
+  for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+           {"--help"}, {"plan", "--help"}, {"stream", "--help"}, {"corners", "--help"}, {"plot", "--help"}}) {
+    const auto [options, message] = parse(arguments);
+    ASSERT_TRUE(message.has_value());
+    EXPECT_FALSE(message->is_error);
+    std::istringstream lines(message->text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80) << line;
+  }
+}
+
+}  // namespace
+}  // namespace kcs::cli

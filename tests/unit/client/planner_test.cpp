@@ -1,0 +1,176 @@
+// The client library against a real server on a loopback socket.
+#include "client/sdk/planner.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <thread>
+
+#include "server/service/server.h"
+
+namespace kcs::client {
+namespace {
+
+class PlannerTest : public testing::Test {
+ protected:
+  static service::ServerOptions server_options() {
+    service::ServerOptions options;
+    options.listen = "127.0.0.1:0";
+    options.planning_threads = 1;
+    return options;
+  }
+
+  static PlanOptions options() {
+    PlanOptions options;
+    options.machine = {.name = "table",
+                       .axes = 2,
+                       .velocity_mm_s = {500, 500},
+                       .acceleration_mm_s2 = {2500, 2500},
+                       .jerk_mm_s3 = {2e5, 2e5},
+                       .rapid_mm_s = {}};
+    options.feed_mm_s = 100;
+    return options;
+  }
+
+  service::Server server_{server_options()};
+  Planner planner_{server_.address()};
+};
+
+// The paper's example (section 3.1): 46.058 mm/s and 0.28999 s for two legs of 10 mm at a right angle.
+TEST_F(PlannerTest, PlansPoints) {
+  PlanOptions paper = options();
+  paper.tolerance_mm = 0.1;
+  paper.tolerance_kind = ToleranceKind::kCornerDistance;
+  paper.strategy = CornerStrategy::kUninterrupted;
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 10, 0, 10, 10}}, paper);
+  EXPECT_NEAR(plan.summary.cycle_time_s, 0.28999, 0.0003);
+  EXPECT_EQ(plan.summary.segment_count, 2);
+  EXPECT_EQ(plan.options.machine.name, "table");
+  EXPECT_EQ(plan.options.strategy, CornerStrategy::kUninterrupted);
+  const std::vector<Corner> corners = planner_.corners(plan.name);
+  ASSERT_EQ(corners.size(), 1);
+  EXPECT_NEAR(corners[0].speed_mm_s, 46.058, 0.05);
+  EXPECT_EQ(corners[0].strategy, CornerStrategy::kUninterrupted);
+  EXPECT_EQ(corners[0].point_mm, (std::vector<double>{10, 0}));
+}
+
+TEST_F(PlannerTest, PathsOfManyMessagesKeepWhatBelongsToTheirPoints) {
+  PointPath path;
+  for (int i = 0; i < 20'000; ++i) {
+    path.points_mm.insert(path.points_mm.end(), {i * 1.0, i % 2 * 1.0});
+    path.line.push_back(static_cast<std::uint32_t>(i + 1));
+  }
+  path.stops = {{.point = 10'000, .dwell_s = 2}};
+  const Plan plan = planner_.plan_points(path, options());
+  EXPECT_EQ(plan.summary.segment_count, 19'999);
+  EXPECT_EQ(plan.summary.dwell_time_s, 2);
+  const std::vector<Corner> corners = planner_.corners(plan.name);
+  ASSERT_EQ(corners.size(), 19'998);
+  EXPECT_EQ(corners[9'999].dwell_s, 2);
+  EXPECT_EQ(corners[9'999].line, 10'001);
+  EXPECT_EQ(corners.back().line, 19'999);
+}
+
+TEST_F(PlannerTest, GcodeIsTheSamePlanAsItsPoints) {
+  std::istringstream program("G1 X10 Y0\nX10 Y10\n");
+  const Plan plan = planner_.plan_gcode(program, options());
+  EXPECT_EQ(plan.summary.segment_count, 2);
+  EXPECT_DOUBLE_EQ(plan.summary.cycle_time_s,
+                   planner_.plan_points({.points_mm = {0, 0, 10, 0, 10, 10}}, options()).summary.cycle_time_s);
+}
+
+TEST_F(PlannerTest, RefusalsCarryCodeAndViolations) {
+  PlanOptions bad = options();
+  bad.machine.jerk_mm_s3[1] = -1;
+  try {
+    planner_.plan_points({.points_mm = {0, 0, 10, 0}}, bad);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), "INVALID_ARGUMENT");
+    ASSERT_EQ(error.violations().size(), 1);
+    EXPECT_EQ(error.violations()[0].field, "options.machine.jerk_mm_s3[1]");
+    EXPECT_FALSE(error.violations()[0].description.empty());
+  }
+}
+
+TEST_F(PlannerTest, ArraysThatDoNotFitThePointsAreRefused) {
+  EXPECT_THROW(planner_.plan_points({.points_mm = {0, 0, 1, 0, 1, 1}, .feed_mm_s = {1, 2}}, options()), Error);
+  EXPECT_THROW(planner_.plan_points({.points_mm = {0, 0, 1, 0}, .stops = {{.point = 2}}}, options()), Error);
+}
+
+TEST_F(PlannerTest, PlansAreKeptUntilRemoved) {
+  const std::string name = planner_.plan_points({.points_mm = {0, 0, 10, 0}}, options()).name;
+  EXPECT_EQ(planner_.get(name).name, name);
+  planner_.remove(name);
+  try {
+    planner_.get(name);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), "NOT_FOUND");
+  }
+}
+
+TEST_F(PlannerTest, StreamsGiveEverySetpointOnceAndResume) {
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 100, 0}}, options());
+  auto stream = planner_.stream_setpoints(plan.name, {.period_s = 0.001, .batch_size = 100});
+  std::vector<double> x;
+  SetpointBatch batch;
+  while (stream.next(batch)) {
+    EXPECT_EQ(batch.first_index, x.size());
+    EXPECT_LE(batch.size(), 100);
+    x.insert(x.end(), batch.position_mm[0].begin(), batch.position_mm[0].end());
+  }
+  EXPECT_FALSE(stream.next(batch)) << "it stays ended";
+  EXPECT_TRUE(batch.end_of_path);
+  EXPECT_EQ(batch.setpoint_count, x.size());
+  EXPECT_EQ(x.back(), 100);
+
+  auto again =
+      planner_.stream_setpoints(plan.name, {.period_s = 0.001, .first_index = 333, .channels = {Channel::kJerk}});
+  ASSERT_TRUE(again.next(batch));
+  EXPECT_EQ(batch.first_index, 333);
+  EXPECT_EQ(batch.position_mm[0], std::vector<double>(x.begin() + 333, x.end()));
+  EXPECT_EQ(batch.jerk_mm_s3.size(), 2);
+  EXPECT_TRUE(batch.velocity_mm_s.empty());
+}
+
+TEST_F(PlannerTest, StreamsCanBeLeftHalfWay) {
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 100'000, 0}}, options());
+  for (int i = 0; i < 20; ++i) {
+    auto stream = planner_.stream_setpoints(plan.name, {.period_s = 1e-4});
+    SetpointBatch batch;
+    EXPECT_TRUE(stream.next(batch));
+  }
+  EXPECT_EQ(planner_.get(plan.name).name, plan.name);
+}
+
+TEST_F(PlannerTest, CancelEndsAStreamFromAnotherThread) {
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 100'000, 0}}, options());
+  auto stream = planner_.stream_setpoints(plan.name, {.period_s = 1e-5, .batch_size = 1});
+  std::thread canceller([&stream] { stream.cancel(); });
+  try {
+    for (SetpointBatch batch; stream.next(batch);) {
+    }
+    ADD_FAILURE() << "the stream of 100 million setpoints came to its end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), "CANCELLED");
+  }
+  canceller.join();
+}
+
+TEST_F(PlannerTest, AServerThatIsNotThereIsAnError) {
+  const std::string address = server_.address();
+  server_.stop(std::chrono::milliseconds(0));
+  Planner planner(address);
+  try {
+    planner.get("plans/x");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), "UNAVAILABLE");
+    EXPECT_EQ(std::string(error.what()),
+              "no kcsd answers at " + address + "; start one with: kcsd --listen " + address);
+  }
+}
+
+}  // namespace
+}  // namespace kcs::client
