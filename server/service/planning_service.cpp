@@ -29,6 +29,18 @@ v1::CreatePlanRequest parse(grpc::ByteBuffer& bytes) {
   return message;
 }
 
+// Counts a call for as long as it runs.
+class Running {
+ public:
+  explicit Running(std::atomic<int>& count) : count_(count) { ++count_; }
+  ~Running() { --count_; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  std::atomic<int>& count_;
+};
+
 void require_name(const std::string& name) {
   if (name.empty()) refuse("name", "is missing: give the name of a plan");
 }
@@ -44,6 +56,17 @@ PlanningService::PlanningService(jobs::PlanDesk& desk, const Caps& caps)
     return self->create_plan(context, reader, plan);
   };
   MarkMethodStreamed(method->index(), std::make_unique<Handler>(handle, this).release());
+}
+
+template <typename Work>
+grpc::Status PlanningService::answer(std::string_view method, const Work& work) {
+  const Running running(running_);
+  try {
+    if (closed_) throw Stopping();
+    return work();
+  } catch (...) {
+    return status_of_current_exception(method);
+  }
 }
 
 grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan) {

@@ -4,7 +4,9 @@
 #include <grpcpp/support/byte_buffer.h>
 #include <kcs/v1/planning.grpc.pb.h>
 
+#include <atomic>
 #include <string>
+#include <string_view>
 
 #include "server/jobs/plan_desk.h"
 #include "server/service/caps.h"
@@ -16,6 +18,11 @@ class PlanningService final : public v1::PlanningService::Service {
  public:
   // Keeps references to both.
   PlanningService(jobs::PlanDesk& desk, const Caps& caps);
+
+  // Refuses every call from now on; those that run go on.
+  void close() { closed_ = true; }
+  // Whether no call runs.
+  bool idle() const { return running_ == 0; }
 
   grpc::Status GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest* request, v1::Plan* plan) override;
   grpc::Status DeletePlan(grpc::ServerContext* context, const v1::DeletePlanRequest* request,
@@ -32,6 +39,10 @@ class PlanningService final : public v1::PlanningService::Service {
   // for the end of the upload: the beginning of a path would be planned as if it were the whole.
   grpc::Status create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan);
 
+  // Runs `work`, which returns a grpc::Status, and lets no exception out: none may cross into gRPC.
+  template <typename Work>
+  grpc::Status answer(std::string_view method, const Work& work);
+
   // Throws planning::InvalidInput without a name, NotKept if there is no such plan.
   jobs::PlanPointer find(const std::string& name);
 
@@ -39,6 +50,8 @@ class PlanningService final : public v1::PlanningService::Service {
   const Caps& caps_;
   Gate uploads_;
   Gate streams_;
+  std::atomic<bool> closed_ = false;
+  std::atomic<int> running_ = 0;
 };
 
 }  // namespace kcs::service

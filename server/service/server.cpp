@@ -1,6 +1,5 @@
 #include "server/service/server.h"
 
-#include <grpc/grpc.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -11,12 +10,9 @@
 #include <mutex>
 #include <stdexcept>
 #include <thread>
-#include <utility>
-#include <vector>
 
 #include "server/jobs/plan_desk.h"
 #include "server/service/planning_service.h"
-#include "server/service/running_calls.h"
 
 namespace kcs::service {
 namespace {
@@ -25,9 +21,12 @@ namespace {
 constexpr int kSpareThreads = 64;
 constexpr int kKeepaliveMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
-constexpr std::chrono::milliseconds kDownCheck{20};
-constexpr std::chrono::seconds kLinger{1};
 constexpr int kMinPingIntervalMs = 5'000;
+// How stopping goes on: how often it looks whether a call runs, how long it waits for clients to read what was sent
+// and for cancelled calls to end.
+constexpr std::chrono::milliseconds kIdleCheck{20};
+constexpr std::chrono::seconds kLinger{2};
+constexpr std::chrono::seconds kCancellation{1};
 
 std::size_t thread_count(std::size_t wanted) {
   return wanted > 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
@@ -71,7 +70,6 @@ struct Server::Parts {
   const Caps caps;
   jobs::PlanDesk desk;
   PlanningService service;
-  RunningCalls running;
   std::string address;
   std::unique_ptr<grpc::Server> server;
   std::mutex stopping;
@@ -83,9 +81,6 @@ Server::Server(const ServerOptions& options) {
   parts_ = std::make_unique<Parts>(options);
   grpc::ServerBuilder builder;
   configure(builder, options.caps).RegisterService(&parts_->service);
-  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
-  interceptors.push_back(parts_->running.counter());
-  builder.experimental().SetInterceptorCreators(std::move(interceptors));
   int port = 0;
   if (!options.listen.empty()) builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
   parts_->server = builder.BuildAndStart();
@@ -113,18 +108,17 @@ void Server::stop(std::chrono::milliseconds grace) {
   const std::lock_guard lock(parts_->stopping);
   if (parts_->down.valid()) return;
   parts_->server->GetHealthCheckService()->Shutdown();
-  parts_->down = std::async(std::launch::async, [server = parts_->server.get(), grace] {
-    server->Shutdown(std::chrono::system_clock::now() + grace);
+  parts_->service.close();
+  const auto end = std::chrono::steady_clock::now() + grace;
+  while (!parts_->service.idle() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kIdleCheck);
+  // Only now, for gRPC closes a connection together with its last call, and what the client has not yet read by then is
+  // lost. Without a call it waits until the client has confirmed that it read everything; an idle or a silent one may
+  // never do so.
+  const std::chrono::milliseconds linger = parts_->service.idle() ? kLinger : std::chrono::milliseconds(0);
+  parts_->down = std::async(std::launch::async, [server = parts_->server.get(), linger] {
+    server->Shutdown(std::chrono::system_clock::now() + linger);
   });
-  // Shutdown() waits for the connections as well, and an idle or silent one stays for as long as it likes. Once no call
-  // has run for a while, so that the last answers have gone out, they are cut.
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto last = now() + grace + 2 * kLinger;
-  auto busy = now();
-  while (parts_->down.wait_for(kDownCheck) != std::future_status::ready && now() < last) {
-    if (!parts_->running.none()) busy = now();
-    if (now() - busy > kLinger) grpc_server_cancel_all_calls(parts_->server->c_server());
-  }
+  parts_->down.wait_for(linger + kCancellation);
 }
 
 }  // namespace kcs::service

@@ -37,8 +37,8 @@ class Server {
   // A channel to this server that needs no socket. Close its calls before the server goes.
   std::shared_ptr<grpc::Channel> in_process_channel();
 
-  // Takes no new requests, lets the running ones finish for up to `grace`, then cancels them. Returns when they have
-  // ended, at the latest two seconds after the grace: a call whose client takes nothing from its connection may still
+  // Refuses new requests, lets the running ones finish for up to `grace`, then cancels them. Returns when they have
+  // ended, at the latest three seconds after the grace: a call whose client takes nothing from its connection may still
   // hang then, and a thread may still be making a plan. The destructor waits for both. Calling it again does nothing.
   void stop(std::chrono::milliseconds grace);
 

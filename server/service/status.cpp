@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t kMostDetailBytes = 4096;
 constexpr std::size_t kMostTextBytes = 400;
 
+constexpr std::string_view kStopping = "the server is stopping; try again later";
+
 grpc::Status bad_request(const planning::InvalidInput& refused) {
   google::rpc::BadRequest details;
   for (const planning::Violation& violation : refused.violations()) {
@@ -54,8 +56,10 @@ grpc::Status status_of_current_exception(std::string_view method) {
       return failure(
           grpc::StatusCode::NOT_FOUND,
           "the server does not keep this plan; send its request again: the same request gives the same plan");
+    } catch (const Stopping&) {
+      return failure(grpc::StatusCode::UNAVAILABLE, kStopping);
     } catch (const std::future_error&) {
-      return failure(grpc::StatusCode::UNAVAILABLE, "the server is stopping; try again later");
+      return failure(grpc::StatusCode::UNAVAILABLE, kStopping);
     } catch (const std::bad_alloc&) {
       return failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory; try again later");
     } catch (const std::exception& defect) {

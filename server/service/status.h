@@ -11,6 +11,7 @@ namespace kcs::service {
 //   planning::InvalidInput   INVALID_ARGUMENT with a google.rpc.BadRequest in the status details
 //   jobs::CapExceeded        RESOURCE_EXHAUSTED, which names the cap
 //   NotKept                  NOT_FOUND
+//   Stopping                 UNAVAILABLE
 //   std::future_error        UNAVAILABLE: the server stopped before the plan was made
 //   std::bad_alloc           RESOURCE_EXHAUSTED
 //   anything else            INTERNAL with the reason: a defect of kcs
@@ -19,14 +20,7 @@ grpc::Status status_of_current_exception(std::string_view method);
 // Thrown where a plan is asked for that the server does not keep.
 struct NotKept {};
 
-// Runs `work`, which returns a grpc::Status, and lets no exception out: none may cross into gRPC.
-template <typename Work>
-grpc::Status answer(std::string_view method, const Work& work) {
-  try {
-    return work();
-  } catch (...) {
-    return status_of_current_exception(method);
-  }
-}
+// Thrown where a call comes after the server was told to stop.
+struct Stopping {};
 
 }  // namespace kcs::service

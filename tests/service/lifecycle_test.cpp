@@ -132,7 +132,8 @@ TEST(Stop, LetsARunningStreamFinish) {
   ASSERT_TRUE(reader->Read(&batch));
   std::thread stopping([&] { server.server().stop(std::chrono::seconds(30)); });
   while (reader->Read(&batch)) continue;
-  EXPECT_TRUE(reader->Finish().ok());
+  const grpc::Status status = reader->Finish();
+  EXPECT_TRUE(status.ok()) << status.error_message();
   EXPECT_TRUE(batch.end_of_path());
   stopping.join();
   EXPECT_EQ(server.get(name).status.error_code(), grpc::StatusCode::UNAVAILABLE);

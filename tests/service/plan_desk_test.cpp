@@ -24,8 +24,18 @@ PlanRequest right_angle(const std::string& name) {
   return request;
 }
 
+// Takes a few tenths of a second to plan.
+PlanRequest large(const std::string& name) {
+  PlanRequest request = right_angle(name);
+  for (int i = 0; i < 20'000; ++i) {
+    request.path.segments.push_back({.end = {double(i), double(i % 2), 0}, .feed = 100, .tolerance = 0.01});
+  }
+  return request;
+}
+
 TEST(PlanDesk, PlansARequestThatComesManyTimesAtOnceOnlyOnce) {
-  PlanDesk desk({.threads = 2, .queue_length = 100, .stored_plans = 10, .stored_bytes = 1 << 20});
+  PlanDesk desk({.threads = 1, .queue_length = 100, .stored_plans = 10, .stored_bytes = 1 << 30});
+  const auto before = desk.submit(large("plans/before"));  // the others have to wait, so that they meet
   constexpr int kClients = 16;
   std::vector<PlanPointer> plans(kClients);
   {
@@ -52,14 +62,10 @@ TEST(PlanDesk, FailureReachesEveryoneAndIsNotKept) {
 
 TEST(PlanDesk, FullQueueRefusesAndRecovers) {
   PlanDesk desk({.threads = 1, .queue_length = 0, .stored_plans = 1000, .stored_bytes = 1 << 30});
-  PlanRequest large = right_angle("plans/large");
-  for (int i = 0; i < 20'000; ++i) {
-    large.path.segments.push_back({.end = {double(i), double(i % 2), 0}, .feed = 100, .tolerance = 0.01});
-  }
-  const auto first = desk.submit(large);
+  const auto first = desk.submit(large("plans/large"));
   EXPECT_THROW(desk.submit(right_angle("plans/small")), CapExceeded);
   EXPECT_NE(first.get(), nullptr);
-  EXPECT_EQ(desk.submit(large).get(), first.get());
+  EXPECT_EQ(desk.submit(large("plans/large")).get(), first.get());
 }
 
 }  // namespace
