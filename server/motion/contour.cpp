@@ -4,9 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-
-#include "server/motion/straight_run.h"
 
 namespace kcs::motion {
 namespace {
@@ -14,8 +11,9 @@ namespace {
 // A cubic curve by its control points.
 using Bezier = std::array<Vector, 4>;
 
-// Deep enough to halve any phase down to the last bit of its duration's square: bounds converge quadratically.
-constexpr int kMaxDepth = 40;
+// The bound converges with the square of the halved length, but where the nearest piece changes only with the length
+// itself: from 1e7 mm to 1e-17 mm it takes 80 halvings, of one branch.
+constexpr int kMaxDepth = 80;
 
 Bezier bezier_of(const Phase& phase) {
   const double t = phase.duration;
@@ -24,32 +22,7 @@ Bezier bezier_of(const Phase& phase) {
           end.position - end.velocity * (t / 3), end.position};
 }
 
-}  // namespace
-
-double distance_to_segment(const Vector& point, const Vector& from, const Vector& to) {
-  const Vector along = to - from;
-  const double square = along.squaredNorm();
-  if (square == 0) return (point - from).norm();
-  const double share = std::clamp((point - from).dot(along) / square, 0.0, 1.0);
-  // From the nearer end: a long segment does not lose digits.
-  return share <= 0.5 ? (point - from - share * along).norm() : (point - to + (1 - share) * along).norm();
-}
-
-ContourGauge::ContourGauge(std::span<const Vector> points) {
-  std::optional<StraightRun> run;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    if (run && run->extend(points[i + 1])) {
-      pieces_.back().to = points[i + 1];
-    } else {
-      run.reset();
-      if (points[i] != points[i + 1]) run.emplace(points[i], points[i + 1]);
-      pieces_.push_back({points[i], points[i + 1]});
-    }
-    piece_of_.push_back(static_cast<std::uint32_t>(pieces_.size() - 1));
-  }
-}
-
-struct ContourGauge::Search {
+struct Search {
   std::span<const Piece> pieces;
   double resolution;
   double reached;    // a distance that the curve reaches, or that does not matter
@@ -89,13 +62,43 @@ struct ContourGauge::Search {
   }
 };
 
-double ContourGauge::largest_error(const Phase& phase, double resolution, double ignore_below) const {
-  const std::size_t first = piece_of_[phase.segments.first], last = piece_of_[phase.segments.last];
-  Search search{std::span(pieces_).subspan(first, last - first + 1), resolution, ignore_below};
+}  // namespace
+
+double distance_to_segment(const Vector& point, const Vector& from, const Vector& to) {
+  const Vector along = to - from;
+  const double square = along.squaredNorm();
+  if (square == 0) return (point - from).norm();
+  const double share = std::clamp((point - from).dot(along) / square, 0.0, 1.0);
+  // From the nearer end: a long segment does not lose digits.
+  return share <= 0.5 ? (point - from - share * along).norm() : (point - to + (1 - share) * along).norm();
+}
+
+double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, double resolution,
+                             double ignore_below) {
+  Search search{pieces, resolution, ignore_below};
   const Bezier curve = bezier_of(phase);
   search.reached = std::max({search.reached, search.distance(curve[0]), search.distance(curve[3])});
   search.look_at(curve, 0);
   return search.bound;
+}
+
+double closest_approach(const Phase& phase, const Vector& point) {
+  const auto distance = [&](double time) { return (phase.at(time).position - point).norm(); };
+  constexpr int kSamples = 16;
+  const double step = phase.duration / kSamples;
+  int nearest = 0;
+  for (int i = 1; i <= kSamples; ++i) {
+    if (distance(i * step) < distance(nearest * step)) nearest = i;
+  }
+  double low = std::max(0, nearest - 1) * step, high = std::min(kSamples, nearest + 1) * step;
+  double found = distance(nearest * step);
+  for (int i = 0; i < 40; ++i) {  // each step keeps two thirds
+    const double left = low + (high - low) / 3, right = high - (high - low) / 3;
+    const double at_left = distance(left), at_right = distance(right);
+    found = std::min({found, at_left, at_right});
+    (at_left < at_right ? high : low) = at_left < at_right ? right : left;
+  }
+  return found;
 }
 
 }  // namespace kcs::motion

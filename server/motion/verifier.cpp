@@ -8,6 +8,7 @@
 
 #include "server/motion/contour.h"
 #include "server/motion/polynomial.h"
+#include "server/motion/route.h"
 #include "server/motion/straight_run.h"
 
 namespace kcs::motion {
@@ -15,36 +16,47 @@ namespace {
 
 constexpr const char* kAxisNames = "XYZ";
 
+// What the end of a phase cannot be told better than, mm: its start, and each term that is added to it, is rounded.
+double travel_rounding(const Phase& phase) {
+  const double t = phase.duration;
+  const Vector travel = phase.start.velocity.cwiseAbs() * t + phase.start.acceleration.cwiseAbs() * (t * t / 2) +
+                        phase.jerk.cwiseAbs() * (t * t * t / 6);
+  return position_rounding(phase.start.position) + position_rounding(travel);
+}
+
 class Verifier {
  public:
   Verifier(const Reference& reference, const AxisLimits& limits)
-      : reference_(reference), limits_(limits), gauge_(reference.points) {
+      : start_(reference.points.front()),
+        end_(reference.points.back()),
+        limits_(limits),
+        course_(reference),
+        route_(course_, kRoundingShare * limits.velocity.head(static_cast<Eigen::Index>(limits.axes)).maxCoeff()) {
     for (std::size_t axis = limits.axes; axis < 3; ++axis) {
       limits_.velocity[axis] = limits_.acceleration[axis] = limits_.jerk[axis] = 0;
     }
   }
 
   Verification run(const Trajectory& trajectory) {
-    State at{.position = reference_.points.front()};
-    double time = 0;
+    Phase before{.start = {.position = start_}};  // at rest, for no time
     for (const Phase& phase : trajectory.phases) {
-      if (phase.start_time != time) fail(phase, "a phase does not start at the time when the one before it ends");
-      time = phase.end_time();
-      check_joint(phase, at, phase.start);
+      if (phase.start_time != before.end_time()) fail(phase, "the phase does not start when the one before it ends");
+      if (!check_shape(phase)) return result_;
+      check_joint(phase, before, phase.start);
       check_limits(phase);
-      if (check_shape(phase)) check_path(phase);
-      at = phase.at(phase.duration);
+      check_path(phase);
+      before = phase;
     }
-    const Phase end{.start_time = trajectory.duration(),
-                    .start = {.position = reference_.points.back()},
-                    .segments = {last_segment(), last_segment()}};
-    check_joint(end, at, end.start);
-    check_joint(end, {.position = trajectory.end}, end.start);
+    Phase end{.start_time = trajectory.duration(), .start = {.position = end_}};
+    end.segments.first = end.segments.last = last_segment();
+    check_joint(end, before, end.start);
+    if (!(trajectory.end == end_)) fail(end, "the end is not that of the path");
+    note(end, route_.finish());
     return result_;
   }
 
  private:
-  std::uint32_t last_segment() const { return static_cast<std::uint32_t>(reference_.feed.size()) - 1; }
+  std::uint32_t last_segment() const { return static_cast<std::uint32_t>(course_.segments()) - 1; }
 
   void fail(const Phase& phase, const std::string& what) {
     if (result_.fault.empty()) {
@@ -52,7 +64,11 @@ class Verifier {
     }
   }
 
-  // After a phase without meaning there is no path to measure.
+  void note(const Phase& phase, const std::string& fault) {
+    if (!fault.empty()) fail(phase, fault);
+  }
+
+  // After a phase without meaning there is nothing to measure.
   bool check_shape(const Phase& phase) {
     const bool finite = phase.start.position.allFinite() && phase.start.velocity.allFinite() &&
                         phase.start.acceleration.allFinite() && phase.jerk.allFinite() &&
@@ -68,11 +84,13 @@ class Verifier {
     return true;
   }
 
-  void check_joint(const Phase& phase, const State& before, const State& after) {
+  void check_joint(const Phase& phase, const Phase& previous, const State& after) {
+    const State before = previous.at(previous.duration);
     const double gap = (after.position - before.position).norm();
-    if (!(gap <= kRoundingShare + position_rounding(after.position))) {
-      fail(phase, fmt::format("the position jumps by {} mm", gap));
-    }
+    // Each side may have been reckoned from its own end of the line.
+    double rounding = travel_rounding(previous) + position_rounding(after.position);
+    for (const Piece& piece : course_.part(course_.pieces_of(phase.segments))) rounding += piece.rounding();
+    if (!(gap <= kRoundingShare + rounding)) fail(phase, fmt::format("the position jumps by {} mm", gap));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       check_jump(phase, axis, "velocity", after.velocity[axis] - before.velocity[axis], limits_.velocity[axis]);
       check_jump(phase, axis, "acceleration", after.acceleration[axis] - before.acceleration[axis],
@@ -103,31 +121,33 @@ class Verifier {
   }
 
   void check_path(const Phase& phase) {
-    double feed = std::numeric_limits<double>::infinity(), tolerance = feed;
-    for (std::size_t i = phase.segments.first; i <= phase.segments.last; ++i) {
-      feed = std::min(feed, reference_.feed[i]);
-      tolerance = std::min(tolerance, reference_.tolerance[i]);
+    const SegmentRange range = course_.pieces_of(phase.segments);
+    note(phase, route_.follow(phase, range));
+    const auto pieces = course_.part(range);
+    double feed = std::numeric_limits<double>::infinity(), tolerance = feed, rounding = travel_rounding(phase);
+    for (const Piece& piece : pieces) {
+      feed = std::min(feed, piece.feed);
+      tolerance = std::min(tolerance, piece.tolerance);
+      rounding = std::max(rounding, piece.rounding());
     }
     const double speed = largest_speed(phase);
     result_.max_feed = std::max(result_.max_feed, speed);
     if (!(speed <= feed * (1 + kRoundingShare)))
       fail(phase, fmt::format("the feed reaches {} of {} mm/s", speed, feed));
 
-    const double rounding = position_rounding(phase.start.position) +
-                            position_rounding(reference_.points[phase.segments.first]) +
-                            position_rounding(reference_.points[phase.segments.last + 1]);
     const double resolution = 1e-8 * tolerance + rounding;
     const double error =
-        gauge_.largest_error(phase, resolution, std::min(result_.max_contour_error, tolerance * (1 - 1e-7)));
+        largest_contour_error(phase, pieces, resolution, std::min(result_.max_contour_error, tolerance * (1 - 1e-7)));
     result_.max_contour_error = std::max(result_.max_contour_error, error);
-    if (!(error <= tolerance + rounding)) {
+    if (!(error <= tolerance + 2 * rounding)) {
       fail(phase, fmt::format("the contour error reaches {} mm, the tolerance is {} mm", error, tolerance));
     }
   }
 
-  Reference reference_;
+  Vector start_, end_;  // of the path
   AxisLimits limits_;
-  ContourGauge gauge_;
+  Course course_;
+  Route route_;
   Verification result_;
 };
 

@@ -1,20 +1,13 @@
 // Judges a finished trajectory from its phases alone; it knows nothing of how they were planned.
 #pragma once
 
-#include <span>
 #include <string>
 
+#include "server/motion/course.h"
 #include "server/motion/limits.h"
 #include "server/motion/trajectory.h"
 
 namespace kcs::motion {
-
-// The programmed path as the verifier reads it. Segment i goes from points[i] to points[i + 1].
-struct Reference {
-  std::span<const Vector> points;     // mm, one more than segments
-  std::span<const double> feed;       // mm/s, one per segment
-  std::span<const double> tolerance;  // mm, one per segment: the largest contour error of a phase that follows it
-};
 
 // How far beyond a limit rounding may go, relative to the limit.
 inline constexpr double kRoundingShare = 1e-9;
@@ -31,9 +24,10 @@ struct Verification {
   bool passed() const { return fault.empty(); }
 };
 
-// Checks that the trajectory starts and ends at rest on the path's ends; that time, position, velocity and
-// acceleration are continuous at every joint; that no axis exceeds a limit, the speed no feed (of any segment that a
-// phase follows), and the contour error no tolerance (of every segment that a phase follows: the smallest counts).
+// Checks that the trajectory starts and ends at rest on the path's ends; that time, position, velocity and acceleration
+// are continuous at every joint; that no axis exceeds a limit, the speed no feed (of any segment that a phase follows),
+// and the contour error no tolerance (of every segment that a phase follows: the smallest counts); that the path is
+// travelled in order and forward, comes as near to each corner as it must, and rests where and as long as it must.
 // Linear in the number of phases and segments.
 Verification verify(const Trajectory& trajectory, const Reference& reference, const AxisLimits& limits);
 

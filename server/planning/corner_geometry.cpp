@@ -16,26 +16,36 @@ constexpr double kDeepestCut = 4;
 // …and one tolerance near where the tool goes back on its own path (a drilled hole has a bottom).
 constexpr double kReversal = 175 * std::numbers::pi / 180;
 
-// Unit tangents that differ by less are equal but for their rounding.
-constexpr double kStraight = 1e-12;
+// A tolerance below this is none: coordinates cannot tell.
+constexpr double kNoTolerance = 1e-12;  // mm
 
-double deepest_cut(double tolerance, ToleranceKind kind, const CornerGeometry& corner) {
-  if (kind == ToleranceKind::kCornerDistance || corner.angle > kReversal) return tolerance * kToleranceMargin;
-  return tolerance * kToleranceMargin * std::min(1 / corner.half_cosine, kDeepestCut);
+double reach_of(const CornerGeometry& corner, double tolerance, ToleranceKind kind) {
+  if (kind == ToleranceKind::kCornerDistance || corner.angle > kReversal) return tolerance;
+  return tolerance * std::min(1 / corner.half_cosine, kDeepestCut);
+}
+
+// Unit tangents that differ by less are equal but for their rounding, unless an axis would notice: passing without
+// smoothing changes its velocity at once, and that must be nothing for it.
+bool is_straight(const CornerGeometry& corner, const AxisLimits& limits) {
+  constexpr double kNothing = 1e-12, kNothingForAnAxis = 1e-10;
+  if (2 * corner.half_sine >= kNothing) return false;
+  const double speed = std::min(corner.in.feed, corner.out.feed);
+  return speed <= kNothingForAnAxis * along(limits.velocity, corner.difference, limits.axes);
 }
 
 }  // namespace
 
-bool CornerGeometry::straight() const { return 2 * half_sine < kStraight; }
-
-CornerGeometry corner_geometry(const Leg& in, const Leg& out, ToleranceKind kind) {
+CornerGeometry corner_geometry(const Leg& in, const Leg& out, const PlanOptions& options) {
   CornerGeometry corner{.in = in, .out = out};
   corner.difference = out.direction - in.direction;
   corner.sum = in.direction + out.direction;
   corner.half_sine = corner.difference.norm() / 2;
   corner.half_cosine = corner.sum.norm() / 2;
   corner.angle = 2 * std::atan2(corner.half_sine, corner.half_cosine);
-  corner.cut = deepest_cut(std::min(in.tolerance, out.tolerance), kind, corner);
+  corner.straight = is_straight(corner, options.limits);
+  const double tolerance = std::min(in.tolerance, out.tolerance);
+  corner.reach = reach_of(corner, tolerance, options.tolerance_kind);
+  corner.cut = tolerance < kNoTolerance ? 0 : corner.reach * kToleranceMargin;
   return corner;
 }
 

@@ -15,12 +15,11 @@ struct CornerGeometry {
   double half_sine = 0;                // sin(θ2/2) = |D|/2
   double half_cosine = 0;              // cos(θ2/2) = |ts + te|/2
   double angle = 0;                    // θ2: 0 straight on, π reversal
-  double cut = 0;                      // ε: largest distance from the corner to the middle of the smoothed corner, mm
-
-  // True if the direction changes by no more than rounding: nothing to smooth.
-  bool straight() const;
+  double reach = 0;                    // how near the tool must come to the corner point, mm
+  double cut = 0;                      // ε: the same with a margin for rounding; what smoothing may use
+  bool straight = false;               // the direction changes by no more than rounding: nothing to smooth
 };
 
-CornerGeometry corner_geometry(const Leg& in, const Leg& out, ToleranceKind kind);
+CornerGeometry corner_geometry(const Leg& in, const Leg& out, const PlanOptions& options);
 
 }  // namespace kcs::planning

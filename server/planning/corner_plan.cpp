@@ -14,7 +14,7 @@ CornerPlan with_strategy(const LegPath& path, const PlanOptions& options, Corner
   plan.cornerings.resize(path.legs.size());
   for (std::size_t i = 0; i + 1 < path.legs.size(); ++i) {
     if (path.joints[i].stop) continue;
-    const CornerGeometry corner = corner_geometry(path.legs[i], path.legs[i + 1], options.tolerance_kind);
+    const CornerGeometry corner = corner_geometry(path.legs[i], path.legs[i + 1], options);
     plan.cornerings[i] = choose_cornering(corner, strategy, options.limits);
   }
   plan.speeds = corner_speeds(path.legs, plan.cornerings);

@@ -74,7 +74,7 @@ CornerStrategy Cornering::strategy() const {
 }
 
 Cornering choose_cornering(const CornerGeometry& corner, CornerStrategy strategy, const AxisLimits& limits) {
-  if (corner.straight()) return Cornering(Passage{std::min(corner.in.feed, corner.out.feed)});
+  if (corner.straight) return Cornering(Passage{std::min(corner.in.feed, corner.out.feed)});
   if (strategy == CornerStrategy::kExactStop || corner.cut == 0) return {};
   const Cornering interrupted{Interrupted(corner, limits)};
   if (strategy == CornerStrategy::kInterrupted) return interrupted;

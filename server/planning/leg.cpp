@@ -65,6 +65,10 @@ LegPath legs_of(const Toolpath& path, const AxisLimits& limits) {
     result.feeds.push_back(segment.feed);
     result.tolerances.push_back(segment.tolerance);
   }
+  result.rests.assign(result.feeds.size(), -1);
+  for (std::size_t i = 0; i < result.legs.size(); ++i) {
+    if (result.joints[i].stop) result.rests[result.legs[i].segments.last] = result.joints[i].dwell;
+  }
   return result;
 }
 

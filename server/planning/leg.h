@@ -40,6 +40,7 @@ struct LegPath {
   std::vector<Vector> points;      // mm; one more than segments
   std::vector<double> feeds;       // mm/s, as programmed
   std::vector<double> tolerances;  // mm
+  std::vector<double> rests;       // s, at the segment's end; negative: no rest
 };
 
 // What the axes allow along `direction`: the smallest limit_i / |direction_i|; +infinity for a zero vector.

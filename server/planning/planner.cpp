@@ -25,7 +25,7 @@ class Planner {
 
  private:
   CornerGeometry geometry(std::size_t joint) const {
-    return corner_geometry(path_.legs[joint], path_.legs[joint + 1], options_.tolerance_kind);
+    return corner_geometry(path_.legs[joint], path_.legs[joint + 1], options_);
   }
 
   void build() {
@@ -83,8 +83,14 @@ class Planner {
       path_.points.push_back(path_.points.front());
       path_.feeds.push_back(0);
       path_.tolerances.push_back(0);
+      path_.rests.push_back(-1);
     }
-    const auto found = motion::verify(plan_.trajectory, {path_.points, path_.feeds, path_.tolerances}, options_.limits);
+    std::vector<double> reaches(path_.feeds.size(), 0);
+    for (std::size_t i = 0; i + 1 < path_.legs.size(); ++i) {
+      if (!path_.joints[i].stop) reaches[path_.legs[i].segments.last] = geometry(i).reach;
+    }
+    const auto found = motion::verify(
+        plan_.trajectory, {path_.points, path_.feeds, path_.tolerances, reaches, path_.rests}, options_.limits);
     if (!found.passed()) throw std::logic_error("the plan failed its verification and is not served: " + found.fault);
     plan_.summary.max_velocity = found.max_velocity;
     plan_.summary.max_acceleration = found.max_acceleration;

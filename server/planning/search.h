@@ -17,15 +17,15 @@ double largest_true(double low, double high, Predicate holds) {
   return low;
 }
 
-// Where `value` is least in [low, high], to a relative 1e-6 of the interval, if it falls up to some point and rises
-// after it (golden section).
+// Where `value` is least in [low, high], to a millionth of the interval, if it falls up to some point and rises after
+// it (golden section).
 template <class Function>
 double least_argument(double low, double high, Function value) {
   constexpr double kShare = 0.6180339887498949;
-  const double precision = 1e-6 * (high - low);
+  constexpr int kSteps = 29;  // kShare to this power is less than a millionth
   double left = high - kShare * (high - low), right = low + kShare * (high - low);
   double at_left = value(left), at_right = value(right);
-  while (high - low > precision) {
+  for (int step = 0; step < kSteps; ++step) {
     if (at_left < at_right) {
       high = right;
       right = left;

@@ -55,7 +55,7 @@ class Maker {
   }
 
   void make_path(planning::Toolpath& path) {
-    const double offset = one_of({0.0, 10.0, 1000.0});
+    const double offset = one_of({0.0, 10.0, 1000.0, 1e6});
     for (std::size_t axis = 0; axis < axes_; ++axis) path.start[axis] = uniform(-offset, offset);
     // Each path has lengths of its own: all much alike, or mixed over decades.
     const double shortest = log_uniform(1e-3, 1e4), longest = chance(0.5) ? shortest * 3 : log_uniform(shortest, 1e4);
@@ -64,10 +64,17 @@ class Maker {
     Vector direction = any_direction();
     Vector at = path.start;
     const std::uint64_t count = 1 + random_() % 40;
+    const bool equal_pieces = chance(0.1), back_to_zero = chance(0.05);
     for (std::uint64_t i = 0; i < count; ++i) {
       planning::Segment segment;
-      direction = turned(direction);
-      if (!chance(0.02)) at += direction * log_uniform(shortest, std::min(longest, 1e4));
+      if (!equal_pieces) direction = turned(direction);
+      if (equal_pieces) {  // of one oblique line
+        at = path.start + direction * (shortest * static_cast<double>(i + 1) / static_cast<double>(count));
+      } else if (back_to_zero && i % 2 == 1) {
+        at = Vector::Zero();
+      } else if (!chance(0.02)) {
+        at += direction * log_uniform(shortest, std::min(longest, 1e4));
+      }
       segment.end = at;
       if (changing_feeds) feed_ = chance(0.1) ? INFINITY : log_uniform(0.1, 2000);
       segment.feed = feed_;

@@ -16,6 +16,7 @@ struct Case {
 
 // The same seed gives the same case: two or three axes, up to 40 segments of 1 µm to 10 m, directions from straight on
 // over nearly straight (down to 1e-9 rad) to reversal, limits that differ from axis to axis by up to a factor of 100,
+// lines cut into equal pieces, returns to the same point from afar,
 // feeds, tolerances, stops and dwells that change from segment to segment, repeated points, every strategy.
 Case random_case(std::uint64_t seed);
 

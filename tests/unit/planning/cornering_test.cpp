@@ -17,7 +17,7 @@ class Families : public testing::TestWithParam<std::tuple<CornerStrategy, double
   Families()
       : options_(options_for(2000, 1e5, ToleranceKind::kCornerDistance, std::get<0>(GetParam()))),
         legs_(legs_of(two_legs(std::get<1>(GetParam()), 0.05), options_.limits)),
-        corner_(corner_geometry(legs_.legs[0], legs_.legs[1], options_.tolerance_kind)),
+        corner_(corner_geometry(legs_.legs[0], legs_.legs[1], options_)),
         cornering_(choose_cornering(corner_, options_.strategy, options_.limits)) {}
 
   PlanOptions options_;
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Corners, Families,
 TEST(Cornering, StopsWithoutATolerance) {
   const PlanOptions options = options_for(2000, 1e5, ToleranceKind::kContourError, CornerStrategy::kAuto);
   const LegPath legs = legs_of(two_legs(90, 0), options.limits);
-  const CornerGeometry corner = corner_geometry(legs.legs[0], legs.legs[1], options.tolerance_kind);
+  const CornerGeometry corner = corner_geometry(legs.legs[0], legs.legs[1], options);
   EXPECT_EQ(choose_cornering(corner, options.strategy, options.limits).max_speed(), 0);
 }
 
@@ -92,12 +92,21 @@ TEST(Cornering, PrefersInterruptedForObtuseAndUninterruptedForAcuteCorners) {
   const auto chosen = [](double degrees) {
     const PlanOptions options = options_for(2500, 2e5, ToleranceKind::kCornerDistance, CornerStrategy::kAuto);
     const LegPath legs = legs_of(two_legs(degrees, 0.02), options.limits);
-    const CornerGeometry corner = corner_geometry(legs.legs[0], legs.legs[1], options.tolerance_kind);
+    const CornerGeometry corner = corner_geometry(legs.legs[0], legs.legs[1], options);
     return choose_cornering(corner, options.strategy, options.limits).strategy();
   };
   EXPECT_EQ(chosen(10), CornerStrategy::kInterrupted);
   EXPECT_EQ(chosen(90), CornerStrategy::kUninterrupted);
   EXPECT_EQ(chosen(150), CornerStrategy::kUninterrupted);
+}
+
+TEST(Cornering, SmoothsWhatAnAxisWouldNoticeHoweverSlightItIs) {
+  PlanOptions options = options_for(2000, 1e5, ToleranceKind::kContourError, CornerStrategy::kAuto);
+  const LegPath legs = legs_of(path_through({{1000, 0, 0}, {1999, 8e-10, 0}}, 500, 0.01), options.limits);
+  ASSERT_EQ(legs.legs.size(), 2u);
+  EXPECT_TRUE(corner_geometry(legs.legs[0], legs.legs[1], options).straight);
+  options.limits.velocity.y() = 0.5;
+  EXPECT_FALSE(corner_geometry(legs.legs[0], legs.legs[1], options).straight);
 }
 
 }  // namespace

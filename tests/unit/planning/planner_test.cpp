@@ -170,6 +170,15 @@ TEST(Planner, PlansAPathThatOnlyWaits) {
   EXPECT_EQ(result.summary.segments, 0u);
 }
 
+// Found by attack: the search for the best feed-capped corner met an interval too small to be shared.
+TEST(Planner, EndsWhereTheFeedCapsByAHair) {
+  for (const double feed : {1.10, 1.15, 1.19, 1.22}) {
+    const Toolpath path = path_through({{10, 0, 0}, {20, 10, 0}}, feed, 0.01);
+    const Plan result = plan(path, options_for(50, 1e12, ToleranceKind::kContourError, CornerStrategy::kUninterrupted));
+    EXPECT_GT(result.summary.cycle_time, result.summary.path_length / feed);
+  }
+}
+
 TEST(Planner, HoldsUnequalLimitsInThreeDimensions) {
   Toolpath path = path_through({{10, 5, 2}, {3, 20, -4}, {30, 1, 8}}, 100, 0.05);
   PlanOptions options = options_for(0, 0, ToleranceKind::kContourError, CornerStrategy::kAuto);
