@@ -25,16 +25,17 @@ double half_leg_time(const Leg& leg, const CornerMotion& motion) {
   return ramp.duration + std::max(0.0, way / 2 - ramp.distance) / peak;
 }
 
-bool fits_half(const Leg& leg, const CornerMotion& motion) {
+// How much longer the leg would have to be if its other end had a corner like this one, mm.
+double excess(const Leg& leg, const CornerMotion& motion) {
   const LegEnd end = leg_end(motion, leg);
-  return 2 * (motion.length + ramp_from(leg, end, end.level).distance) <= leg.length;
+  return 2 * (motion.length + ramp_from(leg, end, end.level).distance) - leg.length;
 }
 
 // Time over both half legs with the corner as fast as they let it be.
 double trial_time(const CornerGeometry& corner, const Cornering& cornering) {
-  const double speed = largest_true(0, cornering.max_speed(), [&](double v) {
+  const double speed = largest_fitting(0, cornering.max_speed(), 0, [&](double v) {
     const CornerMotion motion = cornering.at(v);
-    return fits_half(corner.in, motion) && fits_half(corner.out, motion);
+    return std::max(excess(corner.in, motion), excess(corner.out, motion));
   });
   const CornerMotion motion = cornering.at(speed);
   return half_leg_time(corner.in, motion) + motion.duration + half_leg_time(corner.out, motion);

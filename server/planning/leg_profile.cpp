@@ -23,8 +23,8 @@ double needed_length(const Leg& leg, const CornerMotion& entry, const CornerMoti
 double peak_speed(const Leg& leg, const LegEnd& entry, const LegEnd& exit, double way) {
   const double least = std::max(entry.level, exit.level);
   if (least >= leg.feed) return least;
-  return largest_true(least, leg.feed, [&](double peak) {
-    return ramp_from(leg, entry, peak).distance + ramp_from(leg, exit, peak).distance <= way;
+  return largest_fitting(least, leg.feed, kUnusedShare * way, [&](double peak) {
+    return ramp_from(leg, entry, peak).distance + ramp_from(leg, exit, peak).distance - way;
   });
 }
 

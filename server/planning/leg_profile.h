@@ -23,6 +23,9 @@ motion::Ramp ramp_from(const Leg& leg, const LegEnd& end, double peak);
 // them. The leg is possible if that is at most its length.
 double needed_length(const Leg& leg, const CornerMotion& entry, const CornerMotion& exit);
 
+// Searches end when no more than this share of a length is left unused.
+inline constexpr double kUnusedShare = 1e-12;
+
 // The fastest peak speed, up to the leg's feed, for which both ramps fit into `way` (mm) between the corner zones.
 double peak_speed(const Leg& leg, const LegEnd& entry, const LegEnd& exit, double way);
 

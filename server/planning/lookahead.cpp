@@ -16,9 +16,12 @@ struct Span {
   const Cornering& entry;
   const Cornering& exit;
 
-  bool possible(double entry_speed, double exit_speed) const {
-    return needed_length(leg, entry.at(entry_speed), exit.at(exit_speed)) <= leg.length;
+  // How much longer the leg would have to be, mm; ≤ 0: it is long enough.
+  double excess(double entry_speed, double exit_speed) const {
+    return needed_length(leg, entry.at(entry_speed), exit.at(exit_speed)) - leg.length;
   }
+  bool possible(double entry_speed, double exit_speed) const { return excess(entry_speed, exit_speed) <= 0; }
+  double slack() const { return kUnusedShare * leg.length; }
   double entry_level(double speed) const { return entry.at(speed).level(leg.jerk); }
   double exit_level(double speed) const { return exit.at(speed).level(leg.jerk); }
 };
@@ -47,8 +50,9 @@ class LookAhead {
     if (span.possible(entry_cap, exit_cap)) return;
     const auto entry_at = [&](double level) { return span.entry.speed_at_level(level, span.leg.jerk); };
     const auto exit_at = [&](double level) { return span.exit.speed_at_level(level, span.leg.jerk); };
-    const double common = largest_true(0, std::max(span.entry_level(entry_cap), span.exit_level(exit_cap)),
-                                       [&](double level) { return span.possible(entry_at(level), exit_at(level)); });
+    const double common =
+        largest_fitting(0, std::max(span.entry_level(entry_cap), span.exit_level(exit_cap)), span.slack(),
+                        [&](double level) { return span.excess(entry_at(level), exit_at(level)); });
     if (i > 0) speeds_[i - 1] = std::min(speeds_[i - 1], entry_at(common));
     speeds_[i] = std::min(speeds_[i], exit_at(common));
   }
@@ -60,7 +64,7 @@ class LookAhead {
     const double exit = speeds_[i];
     if (span.possible(entry, exit) || span.entry_level(entry) <= span.exit_level(exit)) return;
     const double equal = std::min(entry, span.entry.speed_at_level(span.exit_level(exit), span.leg.jerk));
-    entry = largest_true(equal, entry, [&](double speed) { return span.possible(speed, exit); });
+    entry = largest_fitting(equal, entry, span.slack(), [&](double speed) { return span.excess(speed, exit); });
   }
 
   // Lowers the exit of leg i until it can be reached from its entry.
@@ -70,7 +74,7 @@ class LookAhead {
     double& exit = speeds_[i];
     if (span.possible(entry, exit)) return;
     const double equal = std::min(exit, span.exit.speed_at_level(span.entry_level(entry), span.leg.jerk));
-    exit = largest_true(equal, exit, [&](double speed) { return span.possible(entry, speed); });
+    exit = largest_fitting(equal, exit, span.slack(), [&](double speed) { return span.excess(entry, speed); });
   }
 
   std::span<const Leg> legs_;

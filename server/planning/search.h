@@ -3,16 +3,34 @@
 
 namespace kcs::planning {
 
-// The largest x in [low, high] for which `holds(x)`, to a relative 1e-13 of x or 1e-18 of `high`, from below. `holds`
-// must be true up to some point and false after it; it is taken for granted at `low`.
-template <class Predicate>
-double largest_true(double low, double high, Predicate holds) {
-  if (holds(high)) return high;
-  const double smallest_step = 1e-18 * high;
-  while (high - low > 1e-13 * high && high - low > smallest_step) {
-    const double middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) break;
-    (holds(middle) ? low : high) = middle;
+// The largest x in [low, high] for which `excess(x)` ≤ 0, from below: to a relative 1e-13, or until what is left unused
+// is at most `slack`. `excess` must rise (where it matters, at its zero); that it is ≤ 0 at `low` is taken for granted.
+// False position with the Illinois rule, and a halving now and then, so that the number of steps is bounded.
+template <class Function>
+double largest_fitting(double low, double high, double slack, Function excess) {
+  double at_high = excess(high);
+  if (at_high <= 0) return high;
+  double at_low = excess(low);
+  constexpr int kMaxSteps = 200;
+  int side = 0;  // which end the last step moved: −1 the low one, +1 the high one
+  for (int step = 1; step <= kMaxSteps && high - low > 1e-13 * high; ++step) {
+    double x = low + (high - low) / 2;
+    if (at_low < 0 && step % 4 != 0) x = low - at_low * ((high - low) / (at_high - at_low));
+    if (!(x > low && x < high)) x = low + (high - low) / 2;
+    if (x <= low || x >= high) break;
+    const double at_x = excess(x);
+    if (at_x <= 0) {
+      if (-at_x <= slack) return x;
+      low = x;
+      at_low = at_x;
+      if (side < 0) at_high /= 2;
+      side = -1;
+    } else {
+      high = x;
+      at_high = at_x;
+      if (side > 0) at_low /= 2;
+      side = 1;
+    }
   }
   return low;
 }

@@ -40,9 +40,9 @@ class FeedCappedCorner {
   // The speed that costs the least time and cuts the corner by at most the tolerance, mm/s.
   double best_speed() const {
     const double feed = std::min(corner_.in.feed, corner_.out.feed);
-    const double fastest = largest_true(0, feed * (1 - 1e-9), [&](double v) { return cut(v) <= corner_.cut; });
-    const double freest = largest_true(0, fastest, [&](double v) {  // from here on the feed is what limits Ac
-      return acceleration(v) >= std::min(max_acceleration_, std::sqrt(2 * v * corner_jerk_));
+    const double fastest = largest_fitting(0, feed * (1 - 1e-9), 0, [&](double v) { return cut(v) - corner_.cut; });
+    const double freest = largest_fitting(0, fastest, 0, [&](double v) {  // from here on the feed is what limits Ac
+      return std::min(max_acceleration_, std::sqrt(2 * v * corner_jerk_)) - acceleration(v);
     });
     return least_argument(freest, fastest, [&](double v) { return time_lost(v); });
   }
