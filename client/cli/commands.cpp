@@ -9,7 +9,6 @@
 
 #include "client/cli/corners_table.h"
 #include "client/cli/csv.h"
-#include "client/cli/file_error.h"
 #include "client/cli/gnuplot.h"
 #include "client/cli/json.h"
 #include "client/cli/numbers.h"
@@ -17,13 +16,15 @@
 #include "client/cli/plan_table.h"
 #include "client/cli/planning_session.h"
 #include "client/cli/plot_script.h"
-#include "client/cli/progress_bar.h"
+#include "client/common/file_error.h"
+#include "client/common/progress_bar.h"
 
 namespace kcs::cli {
 namespace {
 
 void print(const std::string& text) {
-  if (!(std::cout << text << std::flush)) throw FileError("standard output cannot be written; is the disk full?");
+  if (!(std::cout << text << std::flush))
+    throw client::FileError("standard output cannot be written; is the disk full?");
 }
 
 std::string program_name(const Options& options) { return options.file == "-" ? "standard input" : options.file; }
@@ -44,7 +45,7 @@ void corners(const Options& options) {
 void write_setpoints(const Options& options, PlanningSession& session, std::ostream& out) {
   const client::StreamOptions stream_options{.period_s = options.period_s, .channels = options.channels};
   auto stream = session.planner().stream_setpoints(session.plan().name, stream_options);
-  ProgressBar bar("setpoints");
+  client::ProgressBar bar("setpoints");
   write_csv(stream, session.plan().options.machine.axes, stream_options, out,
             [&bar](const client::SetpointBatch& batch) {
               bar.update(batch.first_index + batch.size(), batch.setpoint_count);
@@ -58,7 +59,8 @@ void stream(const Options& options) {
   }
   PendingFile file(options.output);
   std::ofstream out(file.path(), std::ios::binary);
-  if (!out) throw FileError(fmt::format("{}: cannot be written; check the folder and its permissions", options.output));
+  if (!out)
+    throw client::FileError(fmt::format("{}: cannot be written; check the folder and its permissions", options.output));
   PlanningSession session(options);
   write_setpoints(options, session, out);
   out.close();
@@ -68,11 +70,12 @@ void stream(const Options& options) {
 PictureFormat picture_format(const std::string& name) {
   if (name.ends_with(".svg")) return PictureFormat::kSvg;
   if (name.ends_with(".png")) return PictureFormat::kPng;
-  throw FileError(fmt::format("{}: no such kind of picture; end the name in .svg or .png", name));
+  throw client::FileError(fmt::format("{}: no such kind of picture; end the name in .svg or .png", name));
 }
 
 void plot(const Options& options) {
   const PictureFormat format = picture_format(options.output);
+  PendingFile file(options.output);
   PlanningSession session(options);
   const double cycle_time = session.plan().summary.cycle_time_s;
   const double to = std::min(options.to_s.value_or(cycle_time), cycle_time);
@@ -86,7 +89,6 @@ void plot(const Options& options) {
   const std::string title =
       fmt::format("{}: {} ({:.3f} s) on {}", std::filesystem::path(program_name(options)).filename().string(),
                   clock_time(cycle_time), cycle_time, session.plan().options.machine.name);
-  PendingFile file(options.output);
   run_gnuplot(plot_script(data, session.plan(), title, file.path().string(), format));
   file.commit();
 }

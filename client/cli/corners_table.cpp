@@ -4,8 +4,8 @@
 
 #include <iterator>
 
-#include "client/cli/names.h"
 #include "client/cli/numbers.h"
+#include "client/common/names.h"
 
 namespace kcs::cli {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "client/cli/file_error.h"
+#include "client/common/file_error.h"
 
 namespace kcs::cli {
 
@@ -49,7 +49,7 @@ void write_csv(client::SetpointStream& stream, std::size_t axes, const client::S
     if (!out) break;
     progress(batch);
   }
-  if (!out.flush()) throw FileError("the setpoints cannot be written; is the disk full?");
+  if (!out.flush()) throw client::FileError("the setpoints cannot be written; is the disk full?");
 }
 
 }  // namespace kcs::cli

@@ -19,7 +19,7 @@ std::string csv_header(std::size_t axes, const std::vector<client::Channel>& cha
 // significant digits.
 std::string csv_rows(const client::SetpointBatch& batch, double period_s);
 
-// Writes header and rows of the whole stream; calls `progress` after each batch. Throws FileError if `out`
+// Writes header and rows of the whole stream; calls `progress` after each batch. Throws client::FileError if `out`
 // cannot be written.
 void write_csv(client::SetpointStream& stream, std::size_t axes, const client::StreamOptions& options,
                std::ostream& out, const std::function<void(const client::SetpointBatch&)>& progress);

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/cli/names.h"
+#include "client/common/names.h"
 
 namespace kcs::cli {
 namespace {

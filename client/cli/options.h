@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "client/common/command_line.h"
+#include "client/common/planning_options.h"
 #include "client/sdk/plan.h"
 #include "client/sdk/setpoint_stream.h"
 
@@ -14,10 +16,10 @@ enum class Command { kPlan, kStream, kCorners, kPlot };
 
 struct Options {
   Command command = Command::kPlan;
-  std::string file;                   // the G-code program; "-": standard input
-  std::string machine = "router";     // a shipped profile's name, or a profile's file name
+  std::string file;  // the G-code program; "-": standard input
+  std::string machine = client::kDefaultMachine;
   client::PlanOptions plan;           // all but the machine
-  double period_s = 0.001;            // between two setpoints; stream and plot sample at it
+  double period_s = 0.001;            // between two setpoints; of use to stream and plot alone
   std::optional<std::string> server;  // HOST:PORT; none: plan inside this process
 
   bool json = false;                      // plan, corners
@@ -27,13 +29,7 @@ struct Options {
   std::optional<double> to_s;             // plot; none: the end
 };
 
-// What was asked for in words: the help text, or what is wrong with the command line.
-struct Message {
-  std::string text;
-  bool is_error = false;
-};
-
 // Reads the command line into `options`. Returns a message if there is nothing to run.
-std::optional<Message> parse_command_line(int argc, const char* const* argv, Options& options);
+std::optional<client::Message> parse_command_line(int argc, const char* const* argv, Options& options);
 
 }  // namespace kcs::cli

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "client/cli/clean_up_on_signal.h"
 
 namespace kcs::cli {
 
 // Stands for a temporary file beside the final one. commit() gives it the final name in one step, replacing what was
-// there; if it never comes to that, the temporary file is removed. What is not an ordinary file (/dev/null, a pipe) is
-// written in place.
+// there; if it never comes to that, because something fails or a signal such as Ctrl-C ends the process, the temporary
+// file is removed. What is not an ordinary file (/dev/null, a pipe) is written in place.
+// Make it before other threads are started (CleanUpOnSignal says why).
 class PendingFile {
  public:
   // The final name.
@@ -25,6 +29,7 @@ class PendingFile {
  private:
   std::filesystem::path name_;
   std::filesystem::path path_;
+  std::optional<CleanUpOnSignal> clean_up_;  // none if the file is written in place
 };
 
 }  // namespace kcs::cli

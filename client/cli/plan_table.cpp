@@ -6,9 +6,9 @@
 #include <sstream>
 #include <utility>
 
-#include "client/cli/names.h"
 #include "client/cli/numbers.h"
 #include "client/cli/slow_spots.h"
+#include "client/common/names.h"
 
 namespace kcs::cli {
 namespace {
@@ -80,8 +80,8 @@ void add_maxima_row(Table& table, std::string_view quantity, const std::vector<d
 void add_maxima(Table& table, const client::Plan& plan) {
   const client::Machine& machine = plan.options.machine;
   table.add("\n{:<{}}", "Reached / limit", kLabelWidth);
-  for (std::size_t axis = 0; axis < machine.axes && axis < kAxisNames.size(); ++axis) {
-    table.add("{:>20}", kAxisNames[axis]);
+  for (std::size_t axis = 0; axis < machine.axes && axis < client::kAxisNames.size(); ++axis) {
+    table.add("{:>20}", client::kAxisNames[axis]);
   }
   table.add("\n");
   add_maxima_row(table, "  velocity mm/s", plan.summary.max_velocity_mm_s, machine.velocity_mm_s);
@@ -98,7 +98,7 @@ void add_slowest_spots(Table& table, const std::vector<client::Corner>& corners)
   table.add(kHeading, "", "mm", "mm", "mm", "", "°", "mm/s", "s");
   for (const SlowSpot& spot : spots) {
     table.add("{:>8}", spot.line);
-    for (std::size_t axis = 0; axis < kAxisNames.size(); ++axis) {
+    for (std::size_t axis = 0; axis < client::kAxisNames.size(); ++axis) {
       table.add("{:>11}", axis < spot.point_mm.size() ? decimal(spot.point_mm[axis], 3) : "");
     }
     table.add("{:>9}{:>10.1f}{:>10.2f}{:>10.3f}\n", spot.corners, spot.largest_angle_deg, spot.lowest_speed_mm_s,

@@ -1,13 +1,10 @@
 #include "client/cli/planning_session.h"
 
-#include <fmt/core.h>
-
-#include <filesystem>
-#include <fstream>
+#include <cstdint>
 #include <iostream>
 #include <limits>
 
-#include "client/cli/file_error.h"
+#include "client/common/program_file.h"
 #include "client/sdk/machine_profile.h"
 #include "server/service/server.h"
 
@@ -26,19 +23,9 @@ std::unique_ptr<service::Server> make_local_server() {
   return std::make_unique<service::Server>(options);
 }
 
-client::Machine read_machine(const std::string& name) {
-  for (const client::ShippedProfile& profile : client::shipped_profiles()) {
-    if (profile.name == name) return client::parse_machine_profile(profile.text, name);
-  }
-  return client::read_machine_profile(name);
-}
-
 client::Plan plan_file(client::Planner& planner, const std::string& file, const client::PlanOptions& options) {
   if (file == "-") return planner.plan_gcode(std::cin, options);
-  std::ifstream program(file, std::ios::binary);
-  if (!program || std::filesystem::is_directory(file)) {
-    throw FileError(fmt::format("{}: cannot be read; check its name and its permissions", file));
-  }
+  std::ifstream program = client::open_program(file);
   return planner.plan_gcode(program, options);
 }
 
@@ -46,7 +33,7 @@ client::Plan plan_file(client::Planner& planner, const std::string& file, const 
 
 PlanningSession::PlanningSession(const Options& options) {
   client::PlanOptions plan_options = options.plan;
-  plan_options.machine = read_machine(options.machine);
+  plan_options.machine = client::find_machine(options.machine);
   if (options.server) {
     planner_ = std::make_unique<client::Planner>(*options.server);
   } else {

@@ -16,7 +16,7 @@ namespace kcs::cli {
 // The session owns that server; streams of the planner must end before it.
 class PlanningSession {
  public:
-  // Throws client::ProfileError, client::Error, or FileError if the program cannot be read.
+  // Throws client::ProfileError, client::Error, or client::FileError if the program cannot be read.
   explicit PlanningSession(const Options& options);
   ~PlanningSession();
 

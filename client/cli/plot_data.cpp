@@ -35,7 +35,7 @@ PlotData gather_plot_data(client::Planner& planner, const client::Plan& plan, do
       plan.name, {.period_s = period,
                   .first_index = static_cast<std::uint64_t>(std::ceil(from_s / period)),
                   .channels = {client::Channel::kVelocity, client::Channel::kAcceleration, client::Channel::kJerk},
-                  .last_index = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::ceil(to_s / period)))});
+                  .last_index = static_cast<std::uint64_t>(std::ceil(to_s / period))});
   const std::size_t axes = plan.options.machine.axes;
   PathOutline path;
   TimeSeries speed(from_s, to_s, kSlots);

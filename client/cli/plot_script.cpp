@@ -8,8 +8,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "client/cli/names.h"
 #include "client/cli/pixel_grid.h"
+#include "client/common/names.h"
 
 namespace kcs::cli {
 namespace {
@@ -148,7 +148,7 @@ std::string speed_panel(const PlotData& data, const std::vector<double>& limits)
   Diagram diagram({data.speed}, limits);
   std::vector<std::string> named;
   for (std::size_t axis = 0; axis < limits.size(); ++axis) {
-    named.push_back(fmt::format("{} {:.10g}", kAxisNames.at(axis), limits[axis]));
+    named.push_back(fmt::format("{} {:.10g}", client::kAxisNames.at(axis), limits[axis]));
     diagram.add_limit(limits[axis], kAxisColours.at(axis));
   }
   diagram.add_curve(data.speed, "202020", fmt::format("along the path (axis limits {})", fmt::join(named, ", ")));
@@ -161,7 +161,7 @@ std::string axes_panel(int row, const PlotData& data, std::string_view label, co
   Diagram diagram(curves, limits);
   for (std::size_t axis = 0; axis < curves.size(); ++axis) {
     diagram.add_curve(curves[axis], kAxisColours.at(axis),
-                      fmt::format("{} (limit {:.10g})", kAxisNames.at(axis), limits[axis]));
+                      fmt::format("{} (limit {:.10g})", client::kAxisNames.at(axis), limits[axis]));
     diagram.add_limit(limits[axis], kAxisColours.at(axis));
     diagram.add_limit(-limits[axis], kAxisColours.at(axis));
   }

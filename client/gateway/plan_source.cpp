@@ -2,11 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <cerrno>
-#include <fstream>
-#include <stdexcept>
-#include <system_error>
 #include <utility>
+
+#include "client/common/file_error.h"
+#include "client/common/program_file.h"
 
 namespace kcs::gateway {
 
@@ -17,24 +16,24 @@ PlanSource::PlanSource(std::string address, Program program)
 
 client::Plan PlanSource::obtain() {
   connect();
-  client::Plan plan = program_ ? make() : planner_->get(name_);
+  client::Plan plan = program_ ? make({}) : planner_->get(name_);
   name_ = plan.name;
   return plan;
 }
 
-client::SetpointStream PlanSource::open(const client::StreamOptions& options) {
-  return planner_->stream_setpoints(name_, options);
+client::SetpointStream PlanSource::open(const client::StreamOptions& options, const std::stop_token& stop) {
+  return planner_->stream_setpoints(name_, options, stop);
 }
 
-void PlanSource::reconnect() {
+void PlanSource::reconnect(const std::stop_token& stop) {
   connect();
   try {
-    planner_->get(name_);
+    planner_->get(name_, stop);
   } catch (const client::Error& error) {
     if (error.code() != "NOT_FOUND" || !program_) throw;
-    const std::string name = make().name;
+    const std::string name = make(stop).name;
     if (name == name_) return;
-    throw std::runtime_error(
+    throw client::FileError(
         fmt::format("{} gives another plan than at the start of the run ({}, was {}): the file or "
                     "the server's version has changed; start the run again",
                     program_->file.string(), name, name_));
@@ -46,12 +45,9 @@ void PlanSource::connect() {
   planner_.emplace(address_);
 }
 
-client::Plan PlanSource::make() {
-  std::ifstream text(program_->file, std::ios::binary);
-  if (!text) {
-    throw std::system_error(errno, std::generic_category(), program_->file.string() + " cannot be opened for reading");
-  }
-  return planner_->plan_gcode(text, program_->options);
+client::Plan PlanSource::make(const std::stop_token& stop) {
+  std::ifstream program = client::open_program(program_->file);
+  return planner_->plan_gcode(program, program_->options, stop);
 }
 
 }  // namespace kcs::gateway

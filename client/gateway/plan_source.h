@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "client/sdk/planner.h"
@@ -17,7 +18,7 @@ struct Program {
 
 // A plan on a server: one that the server keeps, or one that is made from a program. A server that was restarted may
 // have forgotten it; then it is made again, and since the same request gives the same plan, setpoints go on where they
-// were. Calls throw client::Error; std::runtime_error if the program's file cannot be read or has changed meanwhile.
+// were. Calls throw client::Error; client::FileError if the program's file cannot be read or has changed meanwhile.
 class PlanSource {
  public:
   // The plan `name` ("plans/…") that the server at `address` keeps.
@@ -29,16 +30,16 @@ class PlanSource {
   // Fetches the plan, or has it made.
   client::Plan obtain();
 
-  // Opens a stream of the plan that obtain() gave.
-  client::SetpointStream open(const client::StreamOptions& options);
+  // Opens a stream of the plan that obtain() gave. It breaks off when a stop is requested.
+  client::SetpointStream open(const client::StreamOptions& options, const std::stop_token& stop);
 
   // After a failure: connects anew, so that a server that is back is found at once, and sees to it that the server has
-  // the plan.
-  void reconnect();
+  // the plan. Ends at once when a stop is requested.
+  void reconnect(const std::stop_token& stop);
 
  private:
   void connect();
-  client::Plan make();
+  client::Plan make(const std::stop_token& stop);
 
   std::string address_;
   std::string name_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -36,7 +37,7 @@ FeedOptions feed_options(const client::Plan& plan, const PlaybackOptions& option
   return {
       .axes = plan.options.machine.axes,
       .period_s = options.period_s,
-      .last_index = options.seconds ? setpoints(*options.seconds) : 0,
+      .last_index = options.seconds ? std::optional(setpoints(*options.seconds)) : std::nullopt,
       .capacity = std::max(setpoints(options.buffer_s), options.simulated_time ? kSimulatedBuffer : kSmallestBuffer)};
 }
 
@@ -73,9 +74,17 @@ class Run {
   std::uint64_t unmeasured_ticks_ = 0;
 };
 
-// Waits until `setpoints` are buffered, or as many as there will ever be.
-void wait_for_setpoints(SetpointFeed& feed, std::size_t setpoints) {
-  while (!feed.ended() && feed.queue().size() < setpoints) wait_a_little();
+// Waits until `setpoints` are buffered, or as many as there will ever be, or none has come for `patience_s`.
+void wait_for_setpoints(SetpointFeed& feed, std::size_t setpoints, double patience_s) {
+  using Clock = std::chrono::steady_clock;
+  const std::chrono::duration<double> patience(patience_s);
+  auto last_arrival = Clock::now();
+  for (std::size_t before = feed.queue().size(); !feed.ended() && before < setpoints;) {
+    wait_a_little();
+    const std::size_t now = feed.queue().size();
+    if (std::exchange(before, now) != now) last_arrival = Clock::now();
+    if (Clock::now() - last_arrival > patience) return;
+  }
 }
 
 ClockFigures run_by_the_clock(Run& run, double period) {
@@ -93,9 +102,9 @@ ClockFigures run_by_the_clock(Run& run, double period) {
 }
 
 // Time stands still while setpoints are on their way or the measurement is behind.
-void run_in_simulated_time(Run& run, SetpointFeed& feed, const Trace& trace) {
+void run_in_simulated_time(Run& run, SetpointFeed& feed, const Trace& trace, double patience_s) {
   do {
-    wait_for_setpoints(feed, 1);
+    wait_for_setpoints(feed, 1, patience_s);
     while (trace.size() == trace.capacity()) wait_a_little();
   } while (run.tick());
 }
@@ -111,9 +120,10 @@ PlaybackResult play(PlanSource source, const client::Plan& plan, const PlaybackO
   Run run(feed, observer.trace(), plan, options.period_s);
 
   PlaybackResult result;
-  wait_for_setpoints(feed, feed.queue().capacity() * 3 / 4);  // the feed leaves room for less than a quarter
+  wait_for_setpoints(feed, feed.queue().capacity() * 3 / 4,  // the feed leaves room for less than a quarter
+                     options.patience_s);
   if (options.simulated_time) {
-    run_in_simulated_time(run, feed, observer.trace());
+    run_in_simulated_time(run, feed, observer.trace(), options.patience_s);
   } else {
     result.clock = run_by_the_clock(run, options.period_s);
   }

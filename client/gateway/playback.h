@@ -14,11 +14,15 @@
 
 namespace kcs::gateway {
 
+// In simulated time nothing but this ends a run whose server has stopped to answer.
+inline constexpr double kPatienceS = 30;
+
 struct PlaybackOptions {
   double period_s = 0.001;                               // of the drives: one setpoint each, 1e-5 to 10
   double buffer_s = 1;                                   // motion to hold ready against trouble on the network, > 0
   std::optional<double> seconds;                         // play only that much of the plan; none: all of it
   bool simulated_time = false;                           // as fast as it computes, instead of by the clock
+  double patience_s = kPatienceS;                        // gives up when no setpoint has come for so long, > 0
   std::optional<std::filesystem::path> record;           // where to write the run as comma-separated values
   std::function<void(std::uint64_t ticks)> on_progress;  // called now and then, by another thread
 };

@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "client/common/names.h"
+
 namespace kcs::gateway {
 namespace {
 
-constexpr std::array<std::string_view, 3> kAxisNames = {"X", "Y", "Z"};
 constexpr double kMicrometres = 1000;  // in a millimetre
 
 // Time between the first setpoint and the last one played.
@@ -35,7 +35,7 @@ std::string describe_end(const client::Plan& plan, const PlaybackOptions& option
 std::string place(const Vector& position, std::size_t axes) {
   std::string text;
   for (std::size_t axis = 0; axis < axes; ++axis) {
-    text += fmt::format(" {}{:.3f}", kAxisNames.at(axis), position[static_cast<Eigen::Index>(axis)]);
+    text += fmt::format(" {}{:.3f}", client::kAxisNames.at(axis), position[static_cast<Eigen::Index>(axis)]);
   }
   return text;
 }
@@ -61,7 +61,7 @@ void add_errors(Table& table, const RunFigures& figures, std::size_t axes, doubl
             place(figures.contour.max_position_mm, axes));
   for (std::size_t axis = 0; axis < axes; ++axis) {
     const auto entry = static_cast<Eigen::Index>(axis);
-    table.row(axis == 0 ? "Following error" : "", "{} RMS {:.2f} µm, max {:.2f} µm", kAxisNames.at(axis),
+    table.row(axis == 0 ? "Following error" : "", "{} RMS {:.2f} µm, max {:.2f} µm", client::kAxisNames.at(axis),
               figures.following_rms_mm[entry] * kMicrometres, figures.following_max_mm[entry] * kMicrometres);
   }
 }

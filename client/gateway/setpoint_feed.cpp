@@ -24,7 +24,7 @@ constexpr milliseconds kPollInterval{1};  // of a full queue: far shorter than t
 
 // How many setpoints to ask for at a time.
 std::uint32_t piece_size(std::size_t capacity) {
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(capacity / 4, 2, 65'536));
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(capacity / 4, 2, 32'768));
 }
 
 // Whether the same call may succeed later.
@@ -61,7 +61,7 @@ void SetpointFeed::run(const std::stop_token& stop) {
   bool hopeful = true;
   while (!complete_ && hopeful && !stop.stop_requested()) {
     try {
-      if (broken_) source_.reconnect();
+      if (broken_) source_.reconnect(stop);
       fetch(stop);
     } catch (const client::Error& error) {
       if (stop.stop_requested()) break;  // our own doing
@@ -92,8 +92,8 @@ void SetpointFeed::fetch(const std::stop_token& stop) {
                                                 .first_index = next_index_,
                                                 .channels = {},
                                                 .batch_size = piece,
-                                                .last_index = end - 1});
-  const std::stop_callback cancel_when_stopped(stop, [&stream] { stream.cancel(); });
+                                                .last_index = end - 1},
+                                               stop);
   for (client::SetpointBatch batch; !complete_ && stream.next(batch);) {
     check(batch);
     put(batch);
@@ -119,7 +119,7 @@ void SetpointFeed::check(const client::SetpointBatch& batch) const {
 void SetpointFeed::put(const client::SetpointBatch& batch) {
   if (std::exchange(broken_, false)) ++resumptions_;
   const std::uint64_t end_of_path = batch.setpoint_count - 1;
-  const std::uint64_t last = options_.last_index > 0 ? std::min(options_.last_index, end_of_path) : end_of_path;
+  const std::uint64_t last = std::min(options_.last_index.value_or(end_of_path), end_of_path);
   for (std::size_t entry = 0; entry < batch.size() && !complete_; ++entry, ++next_index_) {
     Setpoint setpoint = {.last = next_index_ == last};
     for (std::size_t axis = 0; axis < options_.axes; ++axis) {

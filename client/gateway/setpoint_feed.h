@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -12,10 +13,10 @@
 namespace kcs::gateway {
 
 struct FeedOptions {
-  std::size_t axes = 3;          // of the plan's machine, 2 or 3
-  double period_s = 0.001;       // between two setpoints
-  std::uint64_t last_index = 0;  // last setpoint wanted; 0: to the end of the path
-  std::size_t capacity = 1000;   // setpoints that the queue holds, at least 8
+  std::size_t axes = 3;                     // of the plan's machine, 2 or 3
+  double period_s = 0.001;                  // between two setpoints
+  std::optional<std::uint64_t> last_index;  // last setpoint wanted; none: to the end of the path
+  std::size_t capacity = 1000;              // setpoints that the queue holds, at least 8
 };
 
 // Streams a plan's setpoints into a queue, on a thread of its own. When the queue is full it reads no further, so the
@@ -24,7 +25,7 @@ struct FeedOptions {
 // when the server says that trying again will not help.
 class SetpointFeed {
  public:
-  // source: has obtained its plan. Begins at once; destroying the feed breaks a stream off.
+  // source: has obtained its plan. Begins at once; destroying the feed breaks any call off.
   SetpointFeed(PlanSource source, const FeedOptions& options);
 
   SetpointQueue& queue() { return queue_; }

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
-#include <string>
 
 namespace kcs::client {
 namespace {
@@ -121,6 +120,13 @@ Machine parse_machine_profile(std::string_view text, std::string_view source) {
   } catch (const toml::parse_error& error) {
     reader.fail(error.source(), "", fmt::format("not valid TOML: {}", error.description()));
   }
+}
+
+Machine find_machine(const std::string& profile) {
+  for (const ShippedProfile& shipped : shipped_profiles()) {
+    if (shipped.name == profile) return parse_machine_profile(shipped.text, shipped.name);
+  }
+  return read_machine_profile(profile);
 }
 
 }  // namespace kcs::client

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "client/sdk/machine.h"
@@ -40,5 +41,9 @@ struct ShippedProfile {
 
 // All of them, by name in alphabetical order.
 std::span<const ShippedProfile> shipped_profiles();
+
+// The machine of the shipped profile that is called `profile`, otherwise of the profile in the file of that name.
+// Throws ProfileError.
+Machine find_machine(const std::string& profile);
 
 }  // namespace kcs::client

@@ -149,7 +149,7 @@ v1::StreamSetpointsRequest to_message(const std::string& plan, const StreamOptio
   message.set_first_index(options.first_index);
   for (const Channel channel : options.channels) message.add_channels(to_message(channel));
   message.set_batch_size(options.batch_size);
-  message.set_last_index(options.last_index);
+  if (options.last_index) message.set_last_index(*options.last_index);
   return message;
 }
 

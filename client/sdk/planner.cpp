@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <grpcpp/channel.h>
-#include <grpcpp/client_context.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
@@ -11,6 +10,7 @@
 #include <istream>
 #include <utility>
 
+#include "client/sdk/call_context.h"
 #include "client/sdk/messages.h"
 #include "client/sdk/setpoint_call.h"
 #include "client/sdk/status_error.h"
@@ -21,6 +21,20 @@ namespace {
 // Small enough to keep memory low and to stay far below gRPC's largest message of 4 MiB.
 constexpr std::size_t kGcodeBytesPerMessage = 1 << 18;
 constexpr std::size_t kPointsPerMessage = 8192;
+
+// A server that answers a ping keeps a call alive, even one that plans for an hour; one that does not ends it.
+constexpr int kPingAfterSilenceMs = 10'000;
+constexpr int kPingTimeoutMs = 10'000;
+
+constexpr std::chrono::milliseconds kLookForStop{50};  // while waiting for a connection
+
+std::shared_ptr<grpc::Channel> make_channel(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kPingAfterSilenceMs);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kPingTimeoutMs);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number of them
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
 
 void check_entries(std::string_view name, std::size_t entries, std::size_t points, bool single_allowed) {
   if (entries == 0 || entries == points || (single_allowed && entries == 1)) return;
@@ -40,8 +54,8 @@ class Planner::Connection {
         patience_(patience) {}
 
   // The stub, when the server can be reached; throws Error if it cannot.
-  v1::PlanningService::Stub& stub() {
-    if (!address_.empty()) await_server();
+  v1::PlanningService::Stub& stub(const std::stop_token& stop) {
+    if (!address_.empty()) await_server(stop);
     return *stub_;
   }
 
@@ -50,10 +64,11 @@ class Planner::Connection {
   }
 
   // Sends the options, then what `next_piece` puts into the request until it returns false.
-  Plan create(const PlanOptions& options, const std::function<bool(v1::CreatePlanRequest&)>& next_piece) {
+  Plan create(const PlanOptions& options, const std::stop_token& stop,
+              const std::function<bool(v1::CreatePlanRequest&)>& next_piece) {
     v1::Plan plan;
-    grpc::ClientContext context;
-    const auto writer = stub().CreatePlan(&context, &plan);
+    CallContext context(stop);
+    const auto writer = stub(stop).CreatePlan(&context, &plan);
     v1::CreatePlanRequest request;
     *request.mutable_options() = to_message(options);
     // A write fails when the server has refused the request already; Finish() then says why.
@@ -63,9 +78,9 @@ class Planner::Connection {
     return from_message(plan);
   }
 
-  SetpointStream stream(const v1::StreamSetpointsRequest& request) {
-    stub();
-    return SetpointStream(std::make_unique<SetpointStream::Call>(stub_, address_, request));
+  SetpointStream stream(const v1::StreamSetpointsRequest& request, const std::stop_token& stop) {
+    stub(stop);
+    return SetpointStream(std::make_unique<SetpointStream::Call>(stub_, address_, request, stop));
   }
 
   // For questions that a server answers at once.
@@ -75,14 +90,17 @@ class Planner::Connection {
 
  private:
   // A refused connection is reported at once, a host that does not answer when the patience is over.
-  void await_server() {
-    const auto deadline = std::chrono::system_clock::now() + patience_;
-    grpc_connectivity_state state = channel_->GetState(/*try_to_connect=*/true);
-    while (state != GRPC_CHANNEL_READY) {
-      if (state == GRPC_CHANNEL_TRANSIENT_FAILURE || !channel_->WaitForStateChange(state, deadline)) {
+  void await_server(const std::stop_token& stop) {
+    using Clock = std::chrono::system_clock;  // gRPC's deadlines go by it
+    const auto deadline = Clock::now() + patience_;
+    while (true) {
+      const grpc_connectivity_state state = channel_->GetState(/*try_to_connect=*/true);
+      if (state == GRPC_CHANNEL_READY) return;
+      if (stop.stop_requested()) throw Error("CANCELLED", fmt::format("stopped while connecting to {}", address_));
+      if (state == GRPC_CHANNEL_TRANSIENT_FAILURE || Clock::now() >= deadline) {
         throw Error("UNAVAILABLE", fmt::format("no kcsd answers at {0}; start one with: kcsd --listen {0}", address_));
       }
-      state = channel_->GetState(/*try_to_connect=*/true);
+      channel_->WaitForStateChange(state, std::min(deadline, Clock::now() + kLookForStop));
     }
   }
 
@@ -93,8 +111,7 @@ class Planner::Connection {
 };
 
 Planner::Planner(const std::string& address, std::chrono::milliseconds patience)
-    : connection_(std::make_unique<Connection>(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()),
-                                               address, patience)) {}
+    : connection_(std::make_unique<Connection>(make_channel(address), address, patience)) {}
 
 Planner::Planner(std::shared_ptr<grpc::Channel> channel)
     : connection_(std::make_unique<Connection>(std::move(channel), "", std::chrono::milliseconds::zero())) {}
@@ -103,8 +120,8 @@ Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;
 Planner::~Planner() = default;
 
-Plan Planner::plan_gcode(std::istream& program, const PlanOptions& options) {
-  return connection_->create(options, [&program](v1::CreatePlanRequest& request) {
+Plan Planner::plan_gcode(std::istream& program, const PlanOptions& options, const std::stop_token& stop) {
+  return connection_->create(options, stop, [&program](v1::CreatePlanRequest& request) {
     std::string& piece = *request.mutable_gcode();
     piece.resize(kGcodeBytesPerMessage);
     program.read(piece.data(), static_cast<std::streamsize>(piece.size()));
@@ -114,19 +131,19 @@ Plan Planner::plan_gcode(std::istream& program, const PlanOptions& options) {
   });
 }
 
-Plan Planner::plan_points(const PointPath& path, const PlanOptions& options) {
+Plan Planner::plan_points(const PointPath& path, const PlanOptions& options, const std::stop_token& stop) {
   const std::size_t axes = std::max<std::size_t>(options.machine.axes, 1);
   const std::size_t points = (path.points_mm.size() + axes - 1) / axes;
   check_entries("feed_mm_s", path.feed_mm_s.size(), points, true);
   check_entries("tolerance_mm", path.tolerance_mm.size(), points, true);
   check_entries("line", path.line.size(), points, false);
-  for (const Stop& stop : path.stops) {
-    if (stop.point < points) continue;
+  for (const Stop& stopped : path.stops) {
+    if (stopped.point < points) continue;
     throw Error("INVALID_ARGUMENT",
-                fmt::format("stops names point {}, but the path has {} points, counted from 0", stop.point, points));
+                fmt::format("stops names point {}, but the path has {} points, counted from 0", stopped.point, points));
   }
   std::size_t first = 0;
-  return connection_->create(options, [&](v1::CreatePlanRequest& request) {
+  return connection_->create(options, stop, [&](v1::CreatePlanRequest& request) {
     if (first >= points) return false;
     *request.mutable_path() = to_message(path, axes, first, kPointsPerMessage);
     first += kPointsPerMessage;
@@ -134,32 +151,32 @@ Plan Planner::plan_points(const PointPath& path, const PlanOptions& options) {
   });
 }
 
-Plan Planner::get(const std::string& name) {
+Plan Planner::get(const std::string& name, const std::stop_token& stop) {
   v1::GetPlanRequest request;
   request.set_name(name);
   v1::Plan plan;
-  v1::PlanningService::Stub& stub = connection_->stub();
-  grpc::ClientContext context;
+  v1::PlanningService::Stub& stub = connection_->stub(stop);
+  CallContext context(stop);
   connection_->set_deadline(context);
   connection_->check(stub.GetPlan(&context, request, &plan));
   return from_message(plan);
 }
 
-void Planner::remove(const std::string& name) {
+void Planner::remove(const std::string& name, const std::stop_token& stop) {
   v1::DeletePlanRequest request;
   request.set_name(name);
   google::protobuf::Empty nothing;
-  v1::PlanningService::Stub& stub = connection_->stub();
-  grpc::ClientContext context;
+  v1::PlanningService::Stub& stub = connection_->stub(stop);
+  CallContext context(stop);
   connection_->set_deadline(context);
   connection_->check(stub.DeletePlan(&context, request, &nothing));
 }
 
-std::vector<Corner> Planner::corners(const std::string& name) {
+std::vector<Corner> Planner::corners(const std::string& name, const std::stop_token& stop) {
   v1::DescribeCornersRequest request;
   request.set_name(name);
-  v1::PlanningService::Stub& stub = connection_->stub();
-  grpc::ClientContext context;
+  v1::PlanningService::Stub& stub = connection_->stub(stop);
+  CallContext context(stop);
   const auto reader = stub.DescribeCorners(&context, request);
   std::vector<Corner> corners;
   for (v1::CornerBatch batch; reader->Read(&batch);) {
@@ -169,8 +186,9 @@ std::vector<Corner> Planner::corners(const std::string& name) {
   return corners;
 }
 
-SetpointStream Planner::stream_setpoints(const std::string& name, const StreamOptions& options) {
-  return connection_->stream(to_message(name, options));
+SetpointStream Planner::stream_setpoints(const std::string& name, const StreamOptions& options,
+                                         const std::stop_token& stop) {
+  return connection_->stream(to_message(name, options), stop);
 }
 
 }  // namespace kcs::client

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <iosfwd>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,11 @@ class Channel;
 namespace kcs::client {
 
 // Asks a server to plan tool paths, and for the setpoints and corners of its plans. Calls may be made from several
-// threads at once. Every call throws Error if the server refuses it or does not answer.
+// threads at once. Every call throws Error if the server refuses it or does not answer: "UNAVAILABLE" at the latest
+// twenty seconds after the server's process or the network has fallen silent, however long the call itself may take.
+//
+// Planning takes as long as the path needs. A call that is given a stop token ends as soon as a stop is requested, from
+// whatever thread, and throws Error ("CANCELLED").
 class Planner {
  public:
   // The server at `address`, "HOST:PORT" or "unix:/path/of/socket". Does not connect yet: the first call does, and each
@@ -40,22 +45,25 @@ class Planner {
 
   // Plans a G-code program, read from `program` in pieces as it is sent: it may be larger than the memory.
   // Waits until the plan is made and verified. Throws std::ios_base::failure if the program cannot be read.
-  Plan plan_gcode(std::istream& program, const PlanOptions& options);
+  // A stop does not interrupt the reading of `program`.
+  Plan plan_gcode(std::istream& program, const PlanOptions& options, const std::stop_token& stop = {});
 
   // Plans a path of points.
-  Plan plan_points(const PointPath& path, const PlanOptions& options);
+  Plan plan_points(const PointPath& path, const PlanOptions& options, const std::stop_token& stop = {});
 
   // A plan that the server keeps. Throws Error ("NOT_FOUND") if it does not.
-  Plan get(const std::string& name);
+  Plan get(const std::string& name, const std::stop_token& stop = {});
 
   // Makes the server forget a plan. Throws Error ("NOT_FOUND") if it does not keep it.
-  void remove(const std::string& name);
+  void remove(const std::string& name, const std::stop_token& stop = {});
 
   // How every corner of a plan is taken and what it costs, in the order of the path.
-  std::vector<Corner> corners(const std::string& name);
+  std::vector<Corner> corners(const std::string& name, const std::stop_token& stop = {});
 
-  // Starts to sample a plan. The planner may go before the stream does.
-  SetpointStream stream_setpoints(const std::string& name, const StreamOptions& options);
+  // Starts to sample a plan. The planner may go before the stream does. The stop token holds for the whole stream: a
+  // next() that waits in another thread throws Error ("CANCELLED").
+  SetpointStream stream_setpoints(const std::string& name, const StreamOptions& options,
+                                  const std::stop_token& stop = {});
 
  private:
   class Connection;

@@ -1,12 +1,13 @@
 // A running StreamSetpoints call. Used inside the library alone.
 #pragma once
 
-#include <grpcpp/client_context.h>
 #include <grpcpp/support/sync_stream.h>
 
 #include <memory>
+#include <stop_token>
 #include <string>
 
+#include "client/sdk/call_context.h"
 #include "client/sdk/setpoint_stream.h"
 #include "kcs/v1/planning.grpc.pb.h"
 
@@ -14,18 +15,18 @@ namespace kcs::client {
 
 class SetpointStream::Call {
  public:
-  Call(std::shared_ptr<v1::PlanningService::Stub> stub, std::string address, const v1::StreamSetpointsRequest& request);
+  Call(std::shared_ptr<v1::PlanningService::Stub> stub, std::string address, const v1::StreamSetpointsRequest& request,
+       const std::stop_token& stop);
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
   bool next(SetpointBatch& batch);
-  void cancel() { context_.TryCancel(); }
 
  private:
   std::shared_ptr<v1::PlanningService::Stub> stub_;  // kept as long as the call runs
   std::string address_;
-  grpc::ClientContext context_;
+  CallContext context_;
   std::unique_ptr<grpc::ClientReader<v1::SetpointBatch>> reader_;  // none when the stream has ended
   v1::SetpointBatch message_;                                      // kept for its memory
 };

@@ -9,8 +9,11 @@
 namespace kcs::client {
 
 SetpointStream::Call::Call(std::shared_ptr<v1::PlanningService::Stub> stub, std::string address,
-                           const v1::StreamSetpointsRequest& request)
-    : stub_(std::move(stub)), address_(std::move(address)), reader_(stub_->StreamSetpoints(&context_, request)) {}
+                           const v1::StreamSetpointsRequest& request, const std::stop_token& stop)
+    : stub_(std::move(stub)),
+      address_(std::move(address)),
+      context_(stop),
+      reader_(stub_->StreamSetpoints(&context_, request)) {}
 
 SetpointStream::Call::~Call() {
   if (!reader_) return;
@@ -35,7 +38,5 @@ SetpointStream& SetpointStream::operator=(SetpointStream&&) noexcept = default;
 SetpointStream::~SetpointStream() = default;
 
 bool SetpointStream::next(SetpointBatch& batch) { return call_->next(batch); }
-
-void SetpointStream::cancel() { call_->cancel(); }
 
 }  // namespace kcs::client

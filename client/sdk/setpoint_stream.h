@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace kcs::client {
@@ -12,11 +13,11 @@ namespace kcs::client {
 enum class Channel { kVelocity, kAcceleration, kJerk };
 
 struct StreamOptions {
-  double period_s = 0.001;          // between two setpoints, 1e-5 to 10
-  std::uint64_t first_index = 0;    // first setpoint wanted
-  std::vector<Channel> channels;    // wanted beside the position
-  std::uint32_t batch_size = 4096;  // setpoints in a batch, 1 to 65536: small for latency, large for throughput
-  std::uint64_t last_index = 0;     // last setpoint wanted; 0 or beyond the end: to the end
+  double period_s = 0.001;                  // between two setpoints, 1e-5 to 10
+  std::uint64_t first_index = 0;            // first setpoint wanted
+  std::vector<Channel> channels;            // wanted beside the position
+  std::uint32_t batch_size = 4096;          // setpoints in a batch, 1 to 32768: small for latency, large for throughput
+  std::optional<std::uint64_t> last_index;  // last one wanted, not before first_index; none: to the end of the path
 };
 
 // The values of one quantity: columns[axis][k] is that of setpoint first_index + k.
@@ -49,9 +50,6 @@ class SetpointStream {
   // Waits for the next batch and puts it into `batch`, reusing its memory. False when the stream has ended after its
   // last batch. Throws Error if it broke off; it can then be taken up again at the next index with a new stream.
   bool next(SetpointBatch& batch);
-
-  // Breaks the stream off: a next() that is waiting in another thread throws Error ("CANCELLED").
-  void cancel();
 
  private:
   std::unique_ptr<Call> call_;

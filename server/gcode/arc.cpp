@@ -6,13 +6,16 @@
 #include <numbers>
 #include <string>
 
+#include "server/gcode/trigonometry.h"
+
 namespace kcs::gcode {
 namespace {
 
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-// How far a program's rounding to three decimals of a millimetre, or four of an inch, may put things apart, mm.
+constexpr double kMaxShortfall = 0.001;  // mm, by which a radius may fail to reach: a program's rounding
+// How far a program's rounding may put the two radii of an arc apart, mm.
 constexpr double kRounding = 0.005;
 constexpr double kMismatch = 0.5;            // mm, between the two radii of an arc
 constexpr double kRelativeMismatch = 0.001;  // of the larger one
@@ -55,7 +58,7 @@ Arc Arc::about_centre(const Vector& start, const Vector& end, const Vector2d& ce
                std::to_string(to.norm()) +
                " mm. Check I, J and K (G91.1: from the start, G90.1: absolute), the plane (G17 to G19), the units.");
   }
-  double angle = sign_of(turn) * std::atan2(cross(from, to), from.dot(to));
+  double angle = sign_of(turn) * arc_tangent(cross(from, to), from.dot(to));
   if ((to - from).norm() < kSamePoint) {
     angle = 2 * pi;
   } else if (angle <= 0) {
@@ -71,16 +74,16 @@ Arc Arc::of_radius(const Vector& start, const Vector& end, double radius, Plane 
   if (2 * half < kSamePoint) {
     refuse(place, "an arc by radius R must end elsewhere than it starts. Write a full circle with I, J or K.");
   }
-  if (half > std::abs(radius) + kRounding) {
+  if (half > std::abs(radius) + kMaxShortfall) {
     refuse(place, "the arc's end is " + std::to_string(2 * half) +
-                      " mm from its start, farther than twice the radius of " + std::to_string(std::abs(radius)) +
-                      " mm. Check R and the units.");
+                      " mm from its start, more than 0.002 mm farther than twice the radius of " +
+                      std::to_string(std::abs(radius)) + " mm. Check R and the units.");
   }
   const double reach = std::max(half, std::abs(radius));
-  const double minor_angle = 2 * std::asin(half / reach);
   // The centre of a minor counterclockwise arc lies to the left of the span.
   const double side = sign_of(turn) * (radius > 0 ? 1 : -1);
   const double height = std::sqrt((reach - half) * (reach + half));
+  const double minor_angle = 2 * arc_tangent(half, height);
   const Vector2d centre = plane.of(start) + span / 2 + side * height / (2 * half) * left_of(span);
   const double angle = radius > 0 ? minor_angle : 2 * pi - minor_angle;
   return {start, end, centre, plane, sign_of(turn) * (angle + 2 * pi * (turns - 1))};
@@ -94,7 +97,7 @@ double Arc::length() const {
 // The second derivative of the arc by its angle bounds the distance to a chord over an angle a: at most a²/8 of it.
 // For a circle it is the radius.
 double Arc::curvature_reach() const {
-  return std::hypot(std::max(start_radius_, end_radius_), 2 * (end_radius_ - start_radius_) / sweep_);
+  return Vector2d(std::max(start_radius_, end_radius_), 2 * (end_radius_ - start_radius_) / sweep_).norm();
 }
 
 double Arc::chords_within(double tolerance) const {
@@ -103,17 +106,17 @@ double Arc::chords_within(double tolerance) const {
 }
 
 double Arc::chord_error(double chords) const {
-  const double sine = std::sin(sweep() / chords / 4);
+  const double sine = sine_and_cosine(sweep() / chords / 4).sine;
   return 2 * curvature_reach() * sine * sine;
 }
 
 Vector Arc::chord_end(std::size_t index, std::size_t chords) const {
   if (index == chords) return end_;
   const double share = static_cast<double>(index) / static_cast<double>(chords);
-  const double angle = share * sweep_;
+  const auto [sine, cosine] = sine_and_cosine(share * sweep_);
   const double scale = 1 + share * (end_radius_ / start_radius_ - 1);
   const Vector2d from = scale * (plane_.of(start_) - centre_);
-  const Vector2d point = centre_ + std::cos(angle) * from + std::sin(angle) * left_of(from);
+  const Vector2d point = centre_ + cosine * from + sine * left_of(from);
   Vector end;
   end[plane_.first] = point.x();
   end[plane_.second] = point.y();

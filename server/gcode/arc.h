@@ -38,7 +38,8 @@ class Arc {
                           int turns, Place place);
 
   // An arc of a given radius: the one below 180° if radius > 0, the one above if radius < 0. Refuses, naming `place`,
-  // an end on the start and an end farther away than the radius reaches; 0.005 mm too far counts as rounding.
+  // an end on the start, and a radius that does not reach the end: below half the distance of the two by more than
+  // 0.001 mm. By less, which is rounding, that half becomes the radius.
   static Arc of_radius(const Vector& start, const Vector& end, double radius, Plane plane, Turn turn, int turns,
                        Place place);
 

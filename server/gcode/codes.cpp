@@ -153,6 +153,25 @@ std::string code_name(char letter, int tenths) {
   return name;
 }
 
+bool is_printer_setting(int tenths) {
+  switch (tenths) {
+    case code(92):   // steps per mm
+    case code(201):  // largest accelerations
+    case code(203):  // largest speeds
+    case code(204):  // accelerations
+    case code(205):  // jumps of speed
+    case code(206):  // home offsets
+    case code(350):  // microsteps
+    case code(566):  // jumps of speed
+    case code(900):  // pressure advance
+    case code(906):  // motor currents
+    case code(907):
+      return true;
+    default:
+      return false;
+  }
+}
+
 Codes::Codes(const Words& words, Notices& notices) {
   tenths_.fill(kNoCode);
   for (const Code& word : words.codes()) {

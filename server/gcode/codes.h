@@ -41,6 +41,10 @@ inline constexpr int kNoCode = -1;
 // "G59.1" for 'G' and 591.
 std::string code_name(char letter, int tenths);
 
+// Whether an M word, given as its number times ten, is one with which 3D printers set up their axes, motors or pressure
+// advance (M201 X500): the axis words beside it are settings, not a move.
+bool is_printer_setting(int tenths);
+
 class Codes {
  public:
   // Refuses two words of one group, G words that kcs does not know (the tool would move wrongly without them), and

@@ -16,6 +16,7 @@ constexpr std::string_view kCentreLetters = "IJK";
 constexpr Letters kAxes = letters(kAxisLetters);
 constexpr Letters kCentre = letters(kCentreLetters);
 constexpr double kMaxTurns = 1e6;
+constexpr double kSmallestShortfall = 1e-6;  // mm, of a radius, that is worth a notice
 
 }  // namespace
 
@@ -24,7 +25,10 @@ Interpreter::Interpreter(const Options& options, planning::Toolpath& path, Notic
 
 void Interpreter::execute(const Words& words) {
   const Codes codes(words, notices_);
-  if (codes.is_skipped_whole()) return;
+  if (codes.is_skipped_whole()) {
+    skip(words);
+    return;
+  }
   modes_.apply(words, codes, options_);
   check_axes(words);
   check_use(words, codes);
@@ -51,6 +55,28 @@ void Interpreter::execute(const Words& words) {
   }
   if (codes[Group::kThisBlock] != code(92)) move(words, codes);
   stop(codes);
+}
+
+// A block that is one unknown M word with what follows it. If that could be a move, leaving it out is not safe.
+void Interpreter::skip(const Words& words) {
+  const Letters axis_words = words.present() & (modes_.is_arc() ? kAxes | kCentre : kAxes);
+  if (axis_words == 0) return;
+  const Code& word = words.codes().front();
+  const std::string name = code_name(word.letter, word.tenths);
+  if (modes_.motion != Motion::kNone && !is_printer_setting(word.tenths)) {
+    refuse(words.first_of(axis_words),
+           name +
+               " is not known to kcs, so that this word could be a setting of it or a move. Remove the block, or "
+               "write the move in a block of its own.");
+  }
+  notices_.add({'X', word.tenths}, word.place.line, [&] {
+    std::string list;
+    for (const char letter : std::string_view("XYZIJK")) {
+      if (words.has_any(axis_words & letters({&letter, 1}))) list += std::string(list.empty() ? "" : ", ") + letter;
+    }
+    return "Axis words (" + list + ") beside " + name +
+           " were skipped with it: they were taken for settings, not for a move.";
+  });
 }
 
 void Interpreter::check_axes(const Words& words) const {
@@ -127,6 +153,7 @@ void Interpreter::move(const Words& words, const Codes& codes) {
   if (modes_.is_arc() && words.has_any(kCentre | letters("R"))) {
     const Arc arc = arc_to(end, words);
     note_mismatch(arc, manner.place);
+    if (words.has('R')) note_shortfall(arc, length(words, 'R'), words.place('R'));
     manner.feed = feed_of_move(words, arc.length());
     builder_.arc(arc, manner);
     return;
@@ -143,6 +170,16 @@ void Interpreter::note_mismatch(const Arc& arc, Place place) {
   notices_.add({'I'}, place.line, [&] {
     return "An arc starts " + std::to_string(arc.start_radius()) + " mm from its centre and ends " +
            std::to_string(arc.end_radius()) + " mm from it: the radius changes steadily. Check I, J and K.";
+  });
+}
+
+void Interpreter::note_shortfall(const Arc& arc, double radius, Place place) {
+  const double shortfall = arc.start_radius() - std::abs(radius);
+  if (shortfall < kSmallestShortfall) return;
+  notices_.add({'r'}, place.line, [&] {
+    return "An arc's end is farther from its start than twice its radius R. Up to 0.001 mm too little radius counts "
+           "as rounding: it was taken as half a circle of radius " +
+           std::to_string(arc.start_radius()) + " mm.";
   });
 }
 

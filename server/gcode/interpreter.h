@@ -30,12 +30,14 @@ class Interpreter {
   double largest_chord_error() const { return builder_.largest_chord_error(); }
 
  private:
+  void skip(const Words& words);
   void check_axes(const Words& words) const;
   void check_use(const Words& words, const Codes& codes) const;
   void dwell(const Words& words, const Codes& codes);
   void set_offset(const Words& words, const Codes& codes);
   void move(const Words& words, const Codes& codes);
   void note_mismatch(const Arc& arc, Place place);
+  void note_shortfall(const Arc& arc, double radius, Place place);
   void note_missing_centre(const Words& words, const Codes& codes);
   void stop(const Codes& codes);
 

@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
 #include "server/gcode/cap_reached.h"
+#include "server/gcode/trigonometry.h"
 #include "server/planning/options.h"
 
 namespace kcs::gcode {
@@ -15,7 +15,7 @@ namespace {
 // Lines whose directions differ by less go straight on, rad.
 constexpr double kStraight = 1e-9;
 
-double angle_between(const Vector& a, const Vector& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle_between(const Vector& a, const Vector& b) { return arc_tangent(a.cross(b).norm(), a.dot(b)); }
 
 }  // namespace
 

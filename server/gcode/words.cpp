@@ -63,6 +63,11 @@ class Cursor {
       digits[length++] = peek();
     }
     if (length == 0) refuse_number(letter);
+    if (is_at_exponent()) {
+      refuse(start,
+             "an E right after a number could begin an exponent or a word. Write the number without exponent, such as "
+             "0.000099, or put a blank before the E word.");
+    }
     // from_chars knows no plus sign.
     const char* first = digits.data() + (digits[0] == '+' && length > 1 && digits[1] != '-' ? 1 : 0);
     const char* last = digits.data() + length;
@@ -107,6 +112,16 @@ class Cursor {
   }
 
  private:
+  // Right after a number: whether it goes on with E and a whole number, which other languages take for an exponent
+  // (9.9e-05). With a decimal point that is no exponent but a printer's E word (X10E1.5).
+  bool is_at_exponent() const {
+    if (at_end() || upper(peek()) != 'E' || !is_part_of_number(text_[next_ - 1])) return false;
+    const bool has_sign = next_ + 1 < text_.size() && (text_[next_ + 1] == '+' || text_[next_ + 1] == '-');
+    const std::size_t first = next_ + (has_sign ? 2 : 1);
+    const std::size_t after = std::min(text_.find_first_not_of("0123456789", first), text_.size());
+    return after > first && (after == text_.size() || text_[after] != '.');
+  }
+
   [[noreturn]] void refuse_number(char letter) const {
     if (!at_end() && !is_letter(peek())) refuse_character();
     refuse(place(), std::string(1, letter) + " has no number. Write one after it, or put the text into a comment.");

@@ -33,8 +33,8 @@ struct Code {
 class Words {
  public:
   // Takes a line apart: comments and white space are left out (RS-274 allows blanks anywhere, even inside numbers),
-  // upper and lower case mean the same. Refuses what is no word, control characters, a number that cannot be read,
-  // parameters, expressions, O words, and a letter that comes twice (G and M may).
+  // upper and lower case mean the same. Refuses what is no word, control characters, a number that cannot be read
+  // or seems to have an exponent, parameters, expressions, O words, and a letter that comes twice (G and M may).
   void read(std::string_view text, std::uint32_t line);
 
   bool has(char letter) const { return has_any(Letters{1} << (letter - 'A')); }

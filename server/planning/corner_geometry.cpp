@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace kcs::planning {
 namespace {
@@ -14,13 +13,14 @@ constexpr double kToleranceMargin = 1 - 1e-7;
 // path notices that its tip is missing. So the corner point keeps the curve this many tolerances near…
 constexpr double kDeepestCut = 4;
 // …and one tolerance near where the tool goes back on its own path (a drilled hole has a bottom).
-constexpr double kReversal = 175 * std::numbers::pi / 180;
+// It begins at 175°: below this cosine of half the angle.
+constexpr double kReversal = 0.043619387365336;
 
 // A tolerance below this is none: coordinates cannot tell.
 constexpr double kNoTolerance = 1e-12;  // mm
 
 double reach_of(const CornerGeometry& corner, double tolerance, ToleranceKind kind) {
-  if (kind == ToleranceKind::kCornerDistance || corner.angle > kReversal) return tolerance;
+  if (kind == ToleranceKind::kCornerDistance || corner.half_cosine < kReversal) return tolerance;
   return tolerance * std::min(1 / corner.half_cosine, kDeepestCut);
 }
 

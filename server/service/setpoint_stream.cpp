@@ -16,7 +16,7 @@ using Columns = google::protobuf::RepeatedPtrField<v1::Column>;
 
 constexpr double kMinPeriod = 1e-5, kMaxPeriod = 10;  // s
 constexpr double kMostSetpoints = 9007199254740992;   // 2^53: up to here i × period has an exact i
-constexpr std::uint32_t kBatchSize = 4096, kMaxBatchSize = 65536;
+constexpr std::uint32_t kBatchSize = 4096, kMaxBatchSize = 32768;
 
 // The numbers of `axes` columns of `size` entries each.
 std::array<double*, 3> resized(Columns& columns, std::size_t axes, int size) {
@@ -50,7 +50,7 @@ SetpointStream::SetpointStream(jobs::PlanPointer plan, const v1::StreamSetpoints
       batch_size_(request.has_batch_size() ? request.batch_size() : kBatchSize) {
   Violations violations;
   const std::uint64_t last = sampler_.count() - 1;
-  end_ = request.last_index() == 0 ? last + 1 : std::min(request.last_index(), last) + 1;
+  end_ = !request.has_last_index() ? last + 1 : std::min(request.last_index(), last) + 1;
   if (next_ > last) {
     violations.add("first_index", fmt::format("{} is beyond the plan's last setpoint: give 0 to {}", next_, last));
   } else if (next_ >= end_) {

@@ -41,7 +41,7 @@ TEST(Caps, SegmentsOfGcode) {
   for (int i = 1; i <= 11; ++i) program += "X" + std::to_string(i) + " Y" + std::to_string(i % 2) + "\n";
   EXPECT_TRUE(exhausts(server.create({request(options()), gcode(program)}).status, "points_per_plan = 10"));
   // One short line, millions of chords.
-  EXPECT_TRUE(exhausts(server.create({request(options()), gcode("G64 P1e-9\nG2 X0 Y0 I1000000 F600\n")}).status,
+  EXPECT_TRUE(exhausts(server.create({request(options()), gcode("G64 P0.000000001\nG2 X0 Y0 I1000000 F600\n")}).status,
                        "points_per_plan = 10"));
 }
 

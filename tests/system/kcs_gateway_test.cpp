@@ -245,9 +245,10 @@ TEST_F(Gateway, RefusalsNameTheReasonInWordsAndByExitCode) {
   EXPECT_EQ(start_gateway({program, "--period", "0"})->wait(), 2);
   EXPECT_EQ(start_gateway({})->wait(), 2);
 
-  const auto refused = start_gateway({write("bad.ngc", "G21 F100\nG1 X10\nG1 X=3\n")});
+  const fs::path bad = write("bad.ngc", "G21 F100\nG1 X10\nG1 X=3\n");
+  const auto refused = start_gateway({bad});
   EXPECT_EQ(refused->wait(), 1);
-  EXPECT_NE(refused->errors().find("line 3"), std::string::npos) << refused->errors();
+  EXPECT_TRUE(refused->errors().starts_with(bad.string() + ":3:")) << refused->errors();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/system/child_process.h"
@@ -19,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using Clock = std::chrono::steady_clock;
 
 // Two legs of 10 mm with a right angle between them, and a quarter of a circle.
 constexpr const char* kProgram = "G21 G90 G64\nG1 X10 Y0 F6000\nG1 X10 Y10\nG2 X20 Y20 I10 J0\n";
@@ -141,6 +144,29 @@ TEST_F(Kcsctl, AFailureLeavesTheOldFileAlone) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(read(path("out.csv")), "old");
   EXPECT_EQ(files(), 3);
+}
+
+// As Ctrl-C does it. `env` sees to it that kcsctl listens to it, however the tests were started.
+TEST_F(Kcsctl, AnInterruptedStreamLeavesNothingBehindAndIsOverForTheServer) {
+  std::ofstream(path("far.ngc")) << "G1 X100000 F60\n";  // more than a day: ten thousand million setpoints
+  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0"});
+  const std::string greeting = kcsd.read_line();
+  ChildProcess kcsctl({"/usr/bin/env", "--default-signal=INT", KCSCTL, "stream", path("far.ngc"), "-o", path("out.csv"),
+                       "--period", "1e-5", "--server", greeting.substr(greeting.rfind(' ') + 1)});
+  const fs::path half = path("out.csv." + std::to_string(kcsctl.pid()) + ".part");
+  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  while (!(fs::exists(half) && fs::file_size(half) > 1'000'000)) {
+    ASSERT_LT(Clock::now(), deadline) << "no setpoints come: " << kcsctl.errors();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  kcsctl.send_signal(SIGINT);
+  EXPECT_EQ(kcsctl.wait(), -SIGINT) << kcsctl.errors();
+  EXPECT_EQ(files(), 2) << "the two programs, nothing else";
+
+  const auto begin = Clock::now();
+  kcsd.send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.wait(), 0);
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(3)) << "kcsd waited for the interrupted stream";
 }
 
 TEST_F(Kcsctl, FaultsOfTheProgramNameFileLineAndColumn) {

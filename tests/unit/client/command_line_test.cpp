@@ -10,7 +10,7 @@ namespace {
 
 struct Parsed {
   Options options;
-  std::optional<Message> message;
+  std::optional<client::Message> message;
 };
 
 Parsed parse(std::vector<const char*> arguments) {
@@ -53,6 +53,13 @@ TEST(CommandLine, EveryOptionArrives) {
   EXPECT_EQ(options.server, "localhost:1");
   EXPECT_EQ(options.period_s, 0.004);
   EXPECT_EQ(options.channels, (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity}));
+}
+
+TEST(CommandLine, NamesOfChoicesMayBeInCapitals) {
+  const auto [options, message] = parse({"plan", "part.ngc", "--strategy", "Exact-Stop", "--tolerance-kind", "CORNER"});
+  ASSERT_FALSE(message.has_value()) << message->text;
+  EXPECT_EQ(options.plan.strategy, client::CornerStrategy::kExactStop);
+  EXPECT_EQ(options.plan.tolerance_kind, client::ToleranceKind::kCornerDistance);
 }
 
 TEST(CommandLine, WrongOnesAreRefused) {

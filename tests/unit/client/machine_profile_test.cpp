@@ -99,8 +99,8 @@ TEST(MachineProfile, MissingFileIsNamed) {
 TEST(MachineProfile, ShippedProfilesAreTheFilesInDeploy) {
   ASSERT_EQ(shipped_profiles().size(), 3);
   for (const ShippedProfile& profile : shipped_profiles()) {
-    const Machine built_in = parse_machine_profile(profile.text, profile.name);
-    const Machine file = read_machine_profile(std::string(KCS_MACHINES) + "/" + std::string(profile.name) + ".toml");
+    const Machine built_in = find_machine(std::string(profile.name));
+    const Machine file = find_machine(std::string(KCS_MACHINES) + "/" + std::string(profile.name) + ".toml");
     EXPECT_EQ(built_in.name, file.name);
     EXPECT_EQ(built_in.jerk_mm_s3, file.jerk_mm_s3);
   }

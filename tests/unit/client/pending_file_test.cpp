@@ -1,8 +1,10 @@
 #include "client/cli/pending_file.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -47,6 +49,48 @@ TEST_F(PendingFileTest, AFailureKeepsTheOldFileAndLeavesNothingElse) {
   }
   EXPECT_EQ(read(name_), "old");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(PendingFileTest, ASignalEndsTheProcessAndLeavesNothing) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    const auto be_interrupted = [this, number] {
+      signal(number, SIG_DFL);
+      PendingFile file(name_);
+      write(file.path(), "half");
+      kill(getpid(), number);
+      while (true) pause();
+    };
+    EXPECT_EXIT(be_interrupted(), testing::KilledBySignal(number), "");
+    EXPECT_EQ(files(), 0) << "after signal " << number;
+  }
+}
+
+TEST_F(PendingFileTest, SignalsThatAreIgnoredStayIgnored) {
+  const auto be_hung_up = [this] {
+    signal(SIGHUP, SIG_IGN);
+    PendingFile file(name_);
+    write(file.path(), "all of it");
+    kill(getpid(), SIGHUP);
+    usleep(50'000);
+    file.commit();
+    std::exit(0);
+  };
+  EXPECT_EXIT(be_hung_up(), testing::ExitedWithCode(0), "");
+  EXPECT_EQ(read(name_), "all of it");
+}
+
+TEST_F(PendingFileTest, SignalsEndTheProcessAsEverWhenTheFileIsDone) {
+  const auto be_interrupted = [this] {
+    signal(SIGINT, SIG_DFL);
+    {
+      PendingFile file(name_);
+      write(file.path(), "all of it");
+      file.commit();
+    }
+    kill(getpid(), SIGINT);
+    while (true) pause();
+  };
+  EXPECT_EXIT(be_interrupted(), testing::KilledBySignal(SIGINT), "");
 }
 
 TEST_F(PendingFileTest, ALinkGoesOnPointingToTheFile) {

@@ -1,9 +1,16 @@
 // The client library against a real server on a loopback socket.
 #include "client/sdk/planner.h"
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <sstream>
+#include <stop_token>
+#include <string>
 #include <thread>
 
 #include "server/service/server.h"
@@ -144,18 +151,66 @@ TEST_F(PlannerTest, StreamsCanBeLeftHalfWay) {
   EXPECT_EQ(planner_.get(plan.name).name, plan.name);
 }
 
-TEST_F(PlannerTest, CancelEndsAStreamFromAnotherThread) {
-  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 100'000, 0}}, options());
-  auto stream = planner_.stream_setpoints(plan.name, {.period_s = 1e-5, .batch_size = 1});
-  std::thread canceller([&stream] { stream.cancel(); });
+// The code of the Error that `call` throws.
+template <typename Call>
+std::string code_of(Call call) {
   try {
-    for (SetpointBatch batch; stream.next(batch);) {
-    }
-    ADD_FAILURE() << "the stream of 100 million setpoints came to its end";
+    call();
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), "CANCELLED");
+    return error.code();
   }
-  canceller.join();
+  return "no error";
+}
+
+TEST_F(PlannerTest, AStopEndsAStreamFromAnotherThread) {
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 100'000, 0}}, options());
+  std::stop_source stop;
+  auto stream = planner_.stream_setpoints(plan.name, {.period_s = 1e-5, .batch_size = 1}, stop.get_token());
+  std::jthread stopper([&stop] { stop.request_stop(); });
+  EXPECT_EQ(code_of([&stream] {
+              for (SetpointBatch batch; stream.next(batch);) {
+              }
+            }),
+            "CANCELLED");
+}
+
+TEST_F(PlannerTest, AStopEndsAPlanningFromAnotherThread) {
+  PointPath path;  // takes seconds to plan
+  for (int i = 0; i < 100'000; ++i) path.points_mm.insert(path.points_mm.end(), {i * 1.0, i % 2 * 1.0});
+  std::stop_source stop;
+  std::jthread stopper([&stop] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    stop.request_stop();
+  });
+  EXPECT_EQ(code_of([&] { planner_.plan_points(path, options(), stop.get_token()); }), "CANCELLED");
+}
+
+TEST_F(PlannerTest, ACallThatIsStoppedBeforeItBeginsDoesNotBegin) {
+  std::stop_source stop;
+  stop.request_stop();
+  std::istringstream program("G1 X10 Y0\nX10 Y10\n");
+  EXPECT_EQ(code_of([&] { planner_.plan_gcode(program, options(), stop.get_token()); }), "CANCELLED");
+  EXPECT_EQ(code_of([&] { planner_.get("plans/x", stop.get_token()); }), "CANCELLED");
+}
+
+TEST_F(PlannerTest, AStopEndsTheWaitForAServerThatDoesNotAnswer) {
+  // Takes connections, and says nothing.
+  const int listener = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{.sin_family = AF_INET, .sin_port = 0, .sin_addr = {htonl(INADDR_LOOPBACK)}, .sin_zero = {}};
+  socklen_t size = sizeof(address);
+  ASSERT_EQ(::bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::listen(listener, 1), 0);
+  ASSERT_EQ(::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  Planner planner("127.0.0.1:" + std::to_string(ntohs(address.sin_port)), std::chrono::minutes(1));
+  std::stop_source stop;
+  std::jthread stopper([&stop] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop.request_stop();
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(code_of([&] { planner.get("plans/x", stop.get_token()); }), "CANCELLED");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  ::close(listener);
 }
 
 TEST_F(PlannerTest, AServerThatIsNotThereIsAnError) {

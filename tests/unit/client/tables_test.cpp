@@ -8,8 +8,8 @@
 #include "client/cli/corners_table.h"
 #include "client/cli/numbers.h"
 #include "client/cli/plan_table.h"
-#include "client/cli/progress_bar.h"
 #include "client/cli/slow_spots.h"
+#include "client/common/progress_bar.h"
 
 namespace kcs::cli {
 namespace {
@@ -102,10 +102,10 @@ TEST(CornersTable, HasALineForEachCornerAndFitsEightyColumns) {
 }
 
 TEST(ProgressLine, KeepsToItsWidth) {
-  EXPECT_EQ(progress_line("setpoints", 5, 10, 26), "setpoints [====    ]  50 %");
-  EXPECT_EQ(progress_line("setpoints", 10, 10, 8), "100 %");
+  EXPECT_EQ(client::progress_line("setpoints", 5, 10, 26), "setpoints [====    ]  50 %");
+  EXPECT_EQ(client::progress_line("setpoints", 10, 10, 8), "100 %");
   for (std::size_t columns = 8; columns < 200; ++columns) {
-    EXPECT_LE(progress_line("setpoints", 1, 3, columns).size(), columns);
+    EXPECT_LE(client::progress_line("setpoints", 1, 3, columns).size(), columns);
   }
 }
 

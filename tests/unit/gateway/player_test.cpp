@@ -2,25 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
-// Counts what this program allocates, so that a test can show that a tick allocates nothing.
-// NOLINTBEGIN(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory)
-namespace {
-
-thread_local std::size_t allocations = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-// NOLINTEND(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory)
+#include "tests/unit/gateway/allocations.h"
 
 namespace kcs::gateway {
 namespace {
@@ -77,9 +59,9 @@ TEST(Player, TickAllocatesNothing) {
   SetpointQueue queue(1000);
   for (int i = 0; i < 1000; ++i) queue.put({.position_mm = Vector(i, 0, 0)});
   Player player(queue, Vector::Zero());
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations();
   for (int i = 0; i < 1001; ++i) player.tick();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_EQ(player.state(), PlayState::kStarved);
 }
 

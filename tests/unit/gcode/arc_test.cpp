@@ -208,9 +208,19 @@ TEST(Arc, RefusesWhatIsNoArc) {
 }
 
 TEST(Arc, TakesAnEndThatRoundingPutTooFarAwayAsHalfACircle) {
-  const Program program = arc_from({0, 0, 0}, "G2 X2.002 R1");
-  EXPECT_EQ(program.end().x(), 2.002);
-  EXPECT_NEAR(length_of(program), 1.001 * pi, 0.01);
+  const Program program = arc_from({0, 0, 0}, "G2 X2.0018 R1");
+  EXPECT_EQ(program.end().x(), 2.0018);
+  EXPECT_NEAR(length_of(program), 1.0009 * pi, 0.01);
+  ASSERT_EQ(program.notices.size(), 1U);
+  EXPECT_NE(program.notices[0].text.find("half a circle of radius 1.000900 mm"), std::string::npos);
+  EXPECT_TRUE(arc_from({0, 0, 0}, "G20 G2 X.2 R.1").notices.empty());
+}
+
+TEST(Arc, RefusesARadiusThatFallsShortByMoreThanRounding) {
+  EXPECT_TRUE(
+      refusal_of("F60 G3 X10 Y0 R4.998").starts_with("gcode, line 1, column 15: the arc's end is 10.000000 mm"));
+  EXPECT_NE(refusal_of("F60 G2 X2.0022 R1"), "");
+  EXPECT_NE(refusal_of("F60 G2 X2.0022 R-1"), "");
 }
 
 TEST(Arc, WithoutAnyWordOnlySetsTheMotion) {

@@ -65,7 +65,37 @@ TEST(Codes, OfOrdinaryProgramsAreNotNoted) {
 }
 
 TEST(Codes, AnUnknownMWordTakesItsBlockWithIt) {
-  EXPECT_TRUE(read_program("G0\nN1 M201 X500 Y500 Z0 E9 P1").segments().empty());
+  EXPECT_EQ(read_program("G0 X1\nM62 P1\nM100 S5 E9").segments().size(), 1U);
+}
+
+TEST(Codes, AnUnknownMWordDoesNotHideAMove) {
+  EXPECT_TRUE(refusal_of("G1 X1 F60\nM62 P1 X20").starts_with("gcode, line 2, column 8: M62 is not known to kcs"));
+  EXPECT_TRUE(refusal_of("G0\nN5 M100 P1 Z20").starts_with("gcode, line 2, column 12: M100 is not known to kcs"));
+  EXPECT_TRUE(refusal_of("F60 G2 I1\nM62 P1 I5").starts_with("gcode, line 2, column 8: M62 is not known to kcs"));
+}
+
+class PrinterSettings : public testing::TestWithParam<const char*> {};
+
+TEST_P(PrinterSettings, OfAxesAreSkippedAndSaidToBe) {
+  const std::string word = GetParam();
+  const Program program = read_program("G0 X1\nN1 " + word + " X500 Z0 E9 P1\n" + word + " Y5");
+  EXPECT_EQ(program.segments().size(), 1U);
+  ASSERT_EQ(program.notices.size(), 2U);
+  EXPECT_EQ(program.notices[0].text, word + " is not known to kcs and was skipped.");
+  EXPECT_TRUE(program.notices[1].text.starts_with("Axis words (X, Z) beside " + word + " were skipped with it"));
+  EXPECT_EQ(program.notices[1].line, 2U);
+  EXPECT_EQ(program.notices[1].count, 2U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Codes, PrinterSettings,
+                         testing::Values("M92", "M201", "M203", "M204", "M205", "M206", "M350", "M566", "M900", "M906",
+                                         "M907"));
+
+TEST(Codes, AnUnknownMWordBeforeAnyMotionTakesItsAxisWordsWithItAndSaysSo) {
+  const Program program = read_program("M555 X80 Y80\nG0 X1");
+  EXPECT_EQ(program.segments().size(), 1U);
+  ASSERT_EQ(program.notices.size(), 2U);
+  EXPECT_TRUE(program.notices[1].text.starts_with("Axis words (X, Y) beside M555 were skipped"));
 }
 
 TEST(Codes, AnUnknownMWordAfterAMoveLeavesTheMove) {

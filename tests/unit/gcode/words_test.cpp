@@ -30,6 +30,14 @@ TEST(Words, IgnoresWhiteSpaceEvenInsideNumbers) {
   EXPECT_EQ(words.value('Y'), 7);
 }
 
+TEST(Words, TakesAnEAfterABlankOrWithADecimalPointForAWord) {
+  EXPECT_EQ(words_of("G1 F900.0 E1.16").value('E'), 1.16);
+  EXPECT_EQ(words_of("X10 E-2").value('E'), -2);
+  EXPECT_EQ(words_of("X10E1.5").value('E'), 1.5);
+  EXPECT_EQ(words_of("X10E-.5").value('E'), -0.5);
+  EXPECT_EQ(words_of("E5X10").value('E'), 5);
+}
+
 TEST(Words, KeepsCodesInOrderWithTheirPlaces) {
   const Words words = words_of("N10 G01 m3 G59.1");
   ASSERT_EQ(words.codes().size(), 3U);
@@ -71,7 +79,12 @@ INSTANTIATE_TEST_SUITE_P(Words, BadLines,
                                          BadLine{"X.", "gcode, line 2, column 2", "is not a number"},
                                          BadLine{"X--1", "gcode, line 2, column 2", "is not a number"},
                                          BadLine{"X+-1", "gcode, line 2, column 2", "is not a number"},
-                                         BadLine{"X1e400 E5", "gcode, line 2, column 8", "E comes twice"},
+                                         BadLine{"X1 E4 E5", "gcode, line 2, column 7", "E comes twice"},
+                                         BadLine{"G1 X9.9e-05 Y1", "gcode, line 2, column 5", "such as 0.000099"},
+                                         BadLine{"X1.5E2", "gcode, line 2, column 2", "without exponent"},
+                                         BadLine{"X1e400 E5", "gcode, line 2, column 2", "without exponent"},
+                                         BadLine{"Y 1 .E+1", "gcode, line 2, column 3", "without exponent"},
+                                         BadLine{"X1E", "gcode, line 2, column 4", "E has no number"},
                                          BadLine{"Xnan", "gcode, line 2, column 2", "no number"},
                                          BadLine{"Xinf", "gcode, line 2, column 2", "no number"},
                                          BadLine{"12", "gcode, line 2, column 1", "without a letter"},

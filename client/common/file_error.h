@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace kcs::cli {
+namespace kcs::client {
 
 // what() names the file and the remedy.
 class FileError : public std::runtime_error {
@@ -11,4 +11,4 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace kcs::cli
+}  // namespace kcs::client

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace kcs::cli {
+namespace kcs::client {
 
 // The bar in one line of at most `width` columns: "setpoints [======>      ]  52 %".
 std::string progress_line(const std::string& what, std::uint64_t done, std::uint64_t total, std::size_t width);
@@ -26,4 +26,4 @@ class ProgressBar {
   std::chrono::steady_clock::time_point next_drawing_;
 };
 
-}  // namespace kcs::cli
+}  // namespace kcs::client

@@ -1,4 +1,4 @@
-#include "client/cli/progress_bar.h"
+#include "client/common/progress_bar.h"
 
 #include <fmt/core.h>
 #include <sys/ioctl.h>
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace kcs::cli {
+namespace kcs::client {
 namespace {
 
 constexpr auto kTimeBetweenDrawings = std::chrono::milliseconds(100);
@@ -44,4 +44,4 @@ void ProgressBar::update(std::uint64_t done, std::uint64_t total) {
   std::fputs(("\r" + progress_line(what_, done, total, terminal_width() - 1)).c_str(), stderr);
 }
 
-}  // namespace kcs::cli
+}  // namespace kcs::client
