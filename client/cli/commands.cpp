@@ -17,6 +17,7 @@
 #include "client/cli/planning_session.h"
 #include "client/cli/plot_script.h"
 #include "client/common/file_error.h"
+#include "client/common/program_file.h"
 #include "client/common/progress_bar.h"
 
 namespace kcs::cli {
@@ -57,6 +58,7 @@ void stream(const Options& options) {
     PlanningSession session(options);
     return write_setpoints(options, session, std::cout);
   }
+  client::require_not_the_program(options.file, options.output);
   PendingFile file(options.output);
   std::ofstream out(file.path(), std::ios::binary);
   if (!out)
@@ -75,7 +77,10 @@ PictureFormat picture_format(const std::string& name) {
 
 void plot(const Options& options) {
   const PictureFormat format = picture_format(options.output);
+  client::require_not_the_program(options.file, options.output);
   PendingFile file(options.output);
+  if (!std::ofstream(file.path()))  // or gnuplot would find out, in its own words
+    throw client::FileError(fmt::format("{}: cannot be written; check the folder and its permissions", options.output));
   PlanningSession session(options);
   const double cycle_time = session.plan().summary.cycle_time_s;
   const double to = std::min(options.to_s.value_or(cycle_time), cycle_time);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "client/common/exit_code.h"
 #include "client/common/planning_options.h"
@@ -21,16 +22,26 @@ void add_source(CLI::App& app, CommandLine& options) {
   app.add_option("--server", options.server, "the kcsd to take the plan from")->required()->option_text("HOST:PORT");
 }
 
+// CLI::Range lets NaN pass.
+std::string require_number(const std::string& text) {
+  double number = 0;
+  const bool is_number = CLI::detail::lexical_cast(text, number) && std::isfinite(number);
+  return is_number ? "" : fmt::format("{} is no number", text);
+}
+
 void add_playing(CLI::App& app, CommandLine& options) {
   PlaybackOptions& playback = options.playback;
   app.add_option("--period", playback.period_s, "the drives' period (default: 0.001)")
+      ->check(require_number)
       ->check(CLI::Range(1e-5, 10.0))
       ->option_text("S");
   app.add_option("--buffer", playback.buffer_s, "motion held ready against trouble on the network\n(default: 1)")
+      ->check(require_number)
       ->check(CLI::Range(1e-3, 3600.0))
       ->option_text("S");
   app.add_option("--seconds", playback.seconds, "play only so much of the plan; the simulation ends\nin mid-motion")
-      ->check(CLI::PositiveNumber)
+      ->check(require_number)
+      ->check(CLI::Range(1e-5, 1e9))
       ->option_text("S");
   app.add_flag("--fast", playback.simulated_time,
                fmt::format("play in simulated time, as fast as it computes,\n"

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "client/common/failure_report.h"
+#include "client/common/file_error.h"
+#include "client/common/program_file.h"
 #include "client/common/progress_bar.h"
 #include "client/gateway/command_line.h"
 #include "client/gateway/plan_source.h"
@@ -31,11 +33,14 @@ PlaybackResult play_with_progress(PlanSource source, const client::Plan& plan, P
 }
 
 client::ExitCode run(const CommandLine& options) {
+  if (options.playback.record) client::require_not_the_program(options.file, *options.playback.record);
   PlanSource source = make_source(options);
   const client::Plan plan = source.obtain();
   const PlaybackResult result = play_with_progress(std::move(source), plan, options.playback);
   std::cout << (options.json ? report_json(plan, options.playback, result)
-                             : report_table(plan, options.playback, result));
+                             : report_table(plan, options.playback, result))
+            << std::flush;
+  if (!std::cout) throw client::FileError("standard output cannot be written; is the disk full?");
   return result.state == PlayState::kFinished ? client::kDone : client::kStarved;
 }
 

@@ -105,11 +105,16 @@ class ProfileReader {
 }  // namespace
 
 Machine read_machine_profile(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = 1 << 20;  // a profile has some hundred
+  std::error_code not_there;
+  const bool is_profile =
+      std::filesystem::is_regular_file(file, not_there) && std::filesystem::file_size(file, not_there) <= kMostBytes;
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad()) {
-    throw ProfileError(fmt::format("{}: cannot be read; check its name and its permissions", file.string()));
+  if (!is_profile || !stream.is_open()) {
+    throw ProfileError(
+        fmt::format("{}: cannot be read; check its name and permissions, or name a built-in profile", file.string()));
   }
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
   return parse_machine_profile(text, file.string());
 }
 

@@ -20,7 +20,8 @@ struct Caps {
   std::uint64_t queue_length = 128;
   // Calls of CreatePlan under way at the same time; each may hold a whole tool path.
   std::uint64_t uploads = 128;
-  // Calls of StreamSetpoints and DescribeCorners under way at the same time; each holds one batch and a thread.
+  // Calls of StreamSetpoints and DescribeCorners under way at the same time; each holds a thread and one batch on its
+  // way: 0.2 MB at the default batch size and three axes, 6 MB for the largest batch with all channels.
   std::uint64_t streams = 1'000;
 };
 

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -35,6 +36,10 @@ planning::Vector decode_vector(const std::string& field, const Numbers& numbers,
 void decode_machine(const v1::Machine& machine, jobs::RequestOptions& decoded, Violations& violations) {
   if (machine.name().size() > kMostNameBytes) {
     violations.add("options.machine.name", fmt::format("is too long: give up to {} bytes", kMostNameBytes));
+  }
+  if (std::any_of(machine.name().begin(), machine.name().end(),
+                  [](unsigned char c) { return c < 0x20 || c == 0x7f; })) {
+    violations.add("options.machine.name", "has control characters: give text of one line");
   }
   decoded.machine_name = machine.name();
   if (machine.has_rapid_mm_s()) {

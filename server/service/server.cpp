@@ -32,14 +32,20 @@ std::size_t thread_count(std::size_t wanted) {
   return wanted > 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
 }
 
+constexpr std::size_t kMostPortDigits = 5;
+constexpr int kMostPort = 65535;
+
 bool is_unix(const std::string& listen) { return listen.starts_with("unix:"); }
 
 void require_address(const std::string& listen) {
   const std::size_t colon = listen.rfind(':');
   const bool has_port = colon != std::string::npos && colon > 0 && colon + 1 < listen.size() &&
-                        listen.find_first_not_of("0123456789", colon + 1) == std::string::npos;
+                        listen.size() <= colon + 1 + kMostPortDigits &&
+                        listen.find_first_not_of("0123456789", colon + 1) == std::string::npos &&
+                        std::stoi(listen.substr(colon + 1)) <= kMostPort;
   if (listen.empty() || is_unix(listen) || has_port) return;
-  throw std::runtime_error("cannot listen on \"" + listen + "\": give HOST:PORT or unix:PATH");
+  throw std::runtime_error("cannot listen on \"" + listen +
+                           "\": give HOST:PORT, with a port up to 65535, or unix:PATH");
 }
 
 grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const Caps& caps) {
@@ -49,6 +55,9 @@ grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const Caps& caps) {
   quota.SetMaxThreads(static_cast<int>(caps.uploads + caps.streams) + kSpareThreads);
   builder.SetResourceQuota(quota);
   builder.SetMaxReceiveMessageSize(static_cast<int>(caps.message_bytes));
+  // A compressed message is measured only when it has been blown up to a thousand times its size.
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
   // A port that another server listens on is an error, not shared.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   // A client that vanished without a word does not hold its stream for ever; one that pings for its own sake may.

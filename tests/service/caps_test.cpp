@@ -27,6 +27,18 @@ v1::PathChunk zigzag(int points) {
   return chunk;
 }
 
+// Or a small message could become a thousand times as large before anyone measures it.
+TEST(Caps, CompressedMessagesAreNotTaken) {
+  TestServer server;
+  Call call;
+  call.set_compression_algorithm(GRPC_COMPRESS_GZIP);
+  v1::GetPlanRequest request;
+  request.set_name(std::string(100'000, 'a'));
+  v1::Plan plan;
+  const grpc::Status status = server.stub().GetPlan(&call, request, &plan);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED) << status.error_message();
+}
+
 TEST(Caps, PointsPerPlan) {
   TestServer server({.caps = {.points_per_plan = 10}});
   EXPECT_TRUE(server.create({request(options()), request(zigzag(10))}).status.ok());

@@ -92,7 +92,8 @@ TEST(MachineProfile, MissingFileIsNamed) {
     read_machine_profile("/nowhere/mill.toml");
     FAIL();
   } catch (const ProfileError& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/mill.toml: cannot be read; check its name and its permissions");
+    EXPECT_STREQ(error.what(),
+                 "/nowhere/mill.toml: cannot be read; check its name and permissions, or name a built-in profile");
   }
 }
 
