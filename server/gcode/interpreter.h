@@ -26,6 +26,10 @@ class Interpreter {
   // M2 or M30 came.
   bool program_has_ended() const { return program_has_ended_; }
 
+  const Modes& modes() const { return modes_; }
+  // Where the tool is in the program's coordinates, mm.
+  Vector program_position() const { return builder_.position() - offset_; }
+
   // Largest distance between an arc and its chords so far, mm.
   double largest_chord_error() const { return builder_.largest_chord_error(); }
 

@@ -19,6 +19,7 @@ void Modes::apply(const Words& words, const Codes& codes, const Options& options
   if (codes.has(Group::kPlane)) apply_plane(codes[Group::kPlane]);
   if (codes.has(Group::kDistance)) incremental = codes[Group::kDistance] == code(91);
   if (codes.has(Group::kArcCentres)) absolute_centres = codes[Group::kArcCentres] == code(90, 1);
+  if (codes.has(Group::kWorkOffset)) apply_work_offset(codes[Group::kWorkOffset]);
   if (codes.has(Group::kPathControl)) apply_path_control(words, codes[Group::kPathControl], options.tolerance);
 }
 
@@ -69,6 +70,11 @@ void Modes::apply_plane(int word) {
       plane = kPlaneXy;
       break;
   }
+}
+
+void Modes::apply_work_offset(int word) {
+  const int tenth = word - code(59);
+  coordinate_system = tenth > 0 ? 6 + tenth : word / 10 - 53;
 }
 
 void Modes::apply_path_control(const Words& words, int word, double usual_tolerance) {

@@ -32,11 +32,13 @@ struct Modes {
   // mm, how far the tool may leave the path at corners. 0: not at all (G61, G61.1), the tool rests there.
   double tolerance;
   bool rests_after_every_move = false;  // G61.1
+  int coordinate_system = 1;            // 1 to 9: G54 to G59.3. All of them are the machine's own
 
  private:
   void apply_feed(const Words& words, const Codes& codes);
   void apply_motion(int word);
   void apply_plane(int word);
+  void apply_work_offset(int word);
   void apply_path_control(const Words& words, int word, double usual_tolerance);
 };
 

@@ -18,6 +18,10 @@ struct Options {
   double tolerance = 0.01;                                 // mm, until the program says otherwise; 0 acts like G61
   std::size_t max_segments = 10'000'000;                   // of the whole path; 56 bytes each
   std::size_t max_chords = 1'000'000;                      // of one arc
+  std::size_t max_names = 10'000;                          // of parameters, up to 100 bytes each
+  std::size_t max_kept_bytes = 16'000'000;                 // of subroutines, and of the outermost loop
+  // Lines that run in subroutines, conditions and loops, round after round; every 32 bytes of a line count as one.
+  std::size_t max_blocks = 10'000'000;
 };
 
 }  // namespace kcs::gcode

@@ -39,7 +39,7 @@ void PathBuilder::arc(const Arc& arc, const Manner& manner) {
   const bool is_exact = manner.tolerance == 0;
   const double chords = arc.chords_within(is_exact ? kExactTolerance : kChordShare * manner.tolerance);
   if (chords > static_cast<double>(max_chords_)) {
-    throw CapReached(manner.place,
+    throw CapReached({"max_chords", max_chords_}, manner.place,
                      "the arc needs more than " + std::to_string(max_chords_) +
                          " chords (the cap max_chords) to stay inside the tolerance. Use a larger tolerance "
                          "(G64 P), or fewer turns (P).");
@@ -73,8 +73,9 @@ void PathBuilder::dwell(double duration, Place place) {
 
 void PathBuilder::append(const Vector& end, double tolerance, const Manner& manner) {
   if (path_.segments.size() == max_segments_) {
-    throw CapReached(manner.place, "the program has more than " + std::to_string(max_segments_) +
-                                       " segments (the cap max_segments). Split it into several programs.");
+    throw CapReached({"max_segments", max_segments_}, manner.place,
+                     "the program has more than " + std::to_string(max_segments_) +
+                         " segments (the cap max_segments). Split it into several programs.");
   }
   path_.segments.push_back({.end = end, .feed = manner.feed, .tolerance = tolerance, .line = manner.place.line});
 }

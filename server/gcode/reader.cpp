@@ -7,7 +7,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // with which some 
 
 }  // namespace
 
-Reader::Reader(const Options& options, planning::Toolpath& path) : interpreter_(options, path, notices_) {
+Reader::Reader(const Options& options, planning::Toolpath& path) : execution_(options, path, notices_) {
   path.start = options.start;
 }
 
@@ -17,6 +17,7 @@ void Reader::read(std::string_view piece) {
 
 void Reader::finish() {
   lines_.finish([this](std::string_view text, std::uint32_t number) { read_line(text, number); });
+  execution_.finish();
 }
 
 void Reader::read_line(std::string_view text, std::uint32_t number) {
@@ -33,13 +34,11 @@ void Reader::read_line(std::string_view text, std::uint32_t number) {
     if (next != std::string_view::npos && text[next] != '(' && text[next] != ';') {
       refuse({number, static_cast<std::uint32_t>(next + 1)}, "'%' must stand alone on its line. Remove the rest.");
     }
-    has_ended_ = has_begun_;
+    has_ended_ = has_begun_ || execution_.has_begun();
     has_begun_ = true;
   } else {
-    words_.read(text, number);
-    has_begun_ = has_begun_ || words_.present() != 0 || !words_.codes().empty();
-    interpreter_.execute(words_);
-    has_ended_ = interpreter_.program_has_ended();
+    execution_.read({text, number});
+    has_ended_ = execution_.has_ended();
   }
 }
 

@@ -6,22 +6,20 @@
 #include <cstddef>
 #include <numbers>
 
+#include "server/gcode/precise.h"
+
 namespace kcs::gcode {
 namespace {
 
 using std::numbers::pi;
-
-// A number in two parts: the nearest double, and what that leaves over.
-struct Precise {
-  double value;
-  double rest;
-};
 
 constexpr double kPiRest = 1.2246467991473532e-16;
 constexpr Precise kQuarterTurn{pi / 2, kPiRest / 2};
 constexpr Precise kHalfTurn{pi, kPiRest};
 constexpr Precise kEighthTurn{pi / 4, kPiRest / 4};
 constexpr Precise kArcTangentOfHalf{4.63647609000806093515e-01, 2.26987774529616870924e-17};
+constexpr Precise kRadiansPerDegree{1.7453292519943295e-02, 2.9486522708701687e-19};
+constexpr Precise kDegreesPerRadian{5.7295779513082323e+01, -1.9878495670576283e-15};
 
 // π/2 in three parts. The first two are so short that a product with a whole number below 2^24 is exact.
 constexpr double kFirstPart = 0x1.921fb54p+0;
@@ -69,18 +67,11 @@ double cosine_of(Precise angle) {
   return start + (rounding + (square * square * series(kCosine, square) - angle.rest * angle.value));
 }
 
-}  // namespace
-
-SineCosine sine_and_cosine(double angle) {
-  const double quarter_turns = std::round(angle / (pi / 2));
-  const double coarse = angle - quarter_turns * kFirstPart;
-  const double fine = coarse - quarter_turns * kSecondPart;
-  const double correction = ((coarse - fine) - quarter_turns * kSecondPart) - quarter_turns * kThirdPart;
-  const double value = fine + correction;
-  const Precise remainder{value, (fine - value) + correction};
+// Of the angle that is farther than `remainder` by `quarter_turns`.
+SineCosine sine_and_cosine_of(Precise remainder, long quarter_turns) {
   const double sine = sine_of(remainder);
   const double cosine = cosine_of(remainder);
-  switch (static_cast<long>(quarter_turns) & 3) {
+  switch (quarter_turns & 3) {
     case 0:
       return {sine, cosine};
     case 1:
@@ -90,6 +81,24 @@ SineCosine sine_and_cosine(double angle) {
     default:
       return {-cosine, sine};
   }
+}
+
+}  // namespace
+
+SineCosine sine_and_cosine(double angle) {
+  const double quarter_turns = std::round(angle / (pi / 2));
+  const double coarse = angle - quarter_turns * kFirstPart;
+  const double fine = coarse - quarter_turns * kSecondPart;
+  const double correction = ((coarse - fine) - quarter_turns * kSecondPart) - quarter_turns * kThirdPart;
+  const double value = fine + correction;
+  return sine_and_cosine_of({value, (fine - value) + correction}, static_cast<long>(quarter_turns));
+}
+
+SineCosine sine_and_cosine_of_degrees(double angle) {
+  // Both are exact, and so is their difference: a multiple of 90°.
+  const double remainder = std::remainder(angle, 90);
+  const double quarter_turns = (std::fmod(angle, 360) - remainder) / 90;
+  return sine_and_cosine_of(Precise{remainder} * kRadiansPerDegree, static_cast<long>(quarter_turns));
 }
 
 double arc_tangent(double y, double x) {
@@ -127,5 +136,7 @@ double arc_tangent(double y, double x) {
   const double magnitude = sum + (side * ratio + small);
   return y < 0 ? -magnitude : magnitude;
 }
+
+double degrees_of(double radians) { return (Precise{radians} * kDegreesPerRadian).value; }
 
 }  // namespace kcs::gcode

@@ -6,9 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "server/gcode/parameter.h"
 #include "server/gcode/place.h"
 
 namespace kcs::gcode {
+
+class Cursor;
+class Parameters;
 
 // A set of letters A to Z, one bit each.
 using Letters = std::uint32_t;
@@ -33,9 +37,10 @@ struct Code {
 class Words {
  public:
   // Takes a line apart: comments and white space are left out (RS-274 allows blanks anywhere, even inside numbers),
-  // upper and lower case mean the same. Refuses what is no word, control characters, a number that cannot be read
-  // or seems to have an exponent, parameters, expressions, O words, and a letter that comes twice (G and M may).
-  void read(std::string_view text, std::uint32_t line);
+  // upper and lower case mean the same. `parameters` are those from before the line: its own settings come into force
+  // behind it. Refuses what is no word and no setting, control characters, a number that cannot be read or computed
+  // or seems to have an exponent, O words (o_word.h), and a letter that comes twice (G and M may).
+  void read(std::string_view text, std::uint32_t line, const Parameters& parameters);
 
   bool has(char letter) const { return has_any(Letters{1} << (letter - 'A')); }
   bool has_any(Letters set) const { return (present_ & set) != 0; }
@@ -51,11 +56,16 @@ class Words {
   // The G and M words in their order.
   const std::vector<Code>& codes() const { return codes_; }
 
+  // What the line sets parameters to, in its order.
+  const std::vector<Setting>& settings() const { return settings_; }
+
   // The first word that is not the line's number N; column 1 if there is none.
   Place start() const { return {line_, start_column_}; }
 
  private:
   static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+  void read_word(Cursor& cursor, const Parameters& parameters);
+  void read_setting(Cursor& cursor, const Parameters& parameters);
   void add(char letter, double value, Place place);
 
   std::uint32_t line_ = 0;
@@ -64,6 +74,7 @@ class Words {
   std::array<double, 26> values_{};
   std::array<std::uint32_t, 26> columns_{};
   std::vector<Code> codes_;
+  std::vector<Setting> settings_;
 };
 
 }  // namespace kcs::gcode

@@ -36,7 +36,9 @@ void Upload::within_caps(const Read& read) const {
   try {
     read();
   } catch (const gcode::CapReached& reached) {
-    throw jobs::CapExceeded("points_per_plan", caps_.points_per_plan, reached.what());
+    const gcode::Cap cap = reached.cap();
+    const bool is_of_points = cap.name == "max_segments" || cap.name == "max_chords";  // as set below
+    throw jobs::CapExceeded(is_of_points ? "points_per_plan" : cap.name, cap.value, reached.what());
   }
 }
 

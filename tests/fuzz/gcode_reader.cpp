@@ -23,6 +23,8 @@ Outcome read(std::string_view program, std::size_t axes, std::size_t piece) {
   kcs::gcode::Options options;
   options.axes = axes;
   options.max_segments = 5000;
+  options.max_kept_bytes = 4000;
+  options.max_blocks = 2000;
   Outcome outcome;
   try {
     kcs::gcode::Reader reader(options, outcome.path);

@@ -1,6 +1,7 @@
 // Reads whole programs for the tests of the G-code reader.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,20 @@ struct Program {
   const std::vector<planning::Segment>& segments() const { return path.segments; }
   const planning::Vector& end() const { return path.segments.back().end; }
 };
+
+// Where the moves end in X, mm.
+inline std::vector<double> x_of(const Program& program) {
+  std::vector<double> ends;
+  for (const planning::Segment& segment : program.segments()) ends.push_back(segment.end.x());
+  return ends;
+}
+
+// The lines that the moves come from.
+inline std::vector<std::uint32_t> lines_of(const Program& program) {
+  std::vector<std::uint32_t> lines;
+  for (const planning::Segment& segment : program.segments()) lines.push_back(segment.line);
+  return lines;
+}
 
 inline Program read_program(std::string_view text, const Options& options = {}) {
   Program program;

@@ -15,6 +15,11 @@ constexpr std::string_view kProgram =
     "%\r\n(a part)\r\nG21 G90 G94 ; metric\r\nG0 X1 Y2\nG1 Z-1 F600\rX10\r\r\nG2 X20 Y12 I10 J0\n\n"
     "/G1 X99\nG91 G1 X1 E2\nG90 G3 Y0 R-8 F1200\nG4 P.5\nM30\n%\n";
 
+constexpr std::string_view kProgramWithOWords =
+    "%\nO0042 (a part)\no<row> sub\no1 repeat [#1]\nG91 G0 X1\r\n/X7\no1 endrepeat\n\no<row> endsub [#1]\nG0 Y1\n"
+    "#<i>=0\no1 while [#<i> LT 3]\n#<i>=[#<i>+1]\ro2 if [#<i> EQ 2]\no1 continue\no2 endif\no<row> call [#<i>]\n"
+    "G0 Y#<_value>\no1 endwhile\no3 if [1]\nG0 Z1\no3 endif\nM2\n%\n";
+
 void expect_same(const Program& a, const Program& b) {
   ASSERT_EQ(a.segments().size(), b.segments().size());
   for (std::size_t i = 0; i < a.segments().size(); ++i) {
@@ -45,10 +50,12 @@ Program read_in_pieces(std::string_view text, std::mt19937_64& random, std::size
 }
 
 TEST(Reader, GivesTheSamePathHoweverTheProgramIsCut) {
-  const Program whole = read_program(kProgram);
-  EXPECT_GT(whole.segments().size(), 20U);
   std::mt19937_64 random(1);
-  for (int round = 0; round < 300; ++round) expect_same(whole, read_in_pieces(kProgram, random, 1 + round % 20));
+  for (const std::string_view program : {kProgram, kProgramWithOWords}) {
+    const Program whole = read_program(program);
+    EXPECT_GE(whole.segments().size(), 8U);
+    for (int round = 0; round < 300; ++round) expect_same(whole, read_in_pieces(program, random, 1 + round % 20));
+  }
 }
 
 TEST(Reader, CountsLinesAlikeWithEveryLineEnd) {

@@ -70,6 +70,62 @@ TEST(Trigonometry, SineOfASmallAngleIsAccurateToItsLastDigits) {
   }
 }
 
+TEST(Trigonometry, SineAndCosineOfDegreesAreAccurateToTheirLastDigits) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> exponent(-30, 1.6);
+  std::uniform_real_distribution<double> eighth_turn(-45, 45);
+  const auto error = [](double value, long double exact) {
+    return static_cast<double>(std::abs((value - exact) / exact));
+  };
+  double largest = 0;
+  for (int round = 0; round < 200'000; ++round) {
+    for (const double angle : {std::pow(10, exponent(random)), eighth_turn(random)}) {
+      const long double radians = angle * std::numbers::pi_v<long double> / 180;
+      const auto [sine, cosine] = sine_and_cosine_of_degrees(angle);
+      largest = std::max({largest, error(sine, std::sin(radians)), error(cosine, std::cos(radians))});
+    }
+  }
+  EXPECT_LE(largest, kAccuracy);
+}
+
+TEST(Trigonometry, SineAndCosineOfDegreesAreAccurateInEveryQuarter) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> eighth_turn(-45, 45);
+  for (int round = 0; round < 100'000; ++round) {
+    // A multiple of 2^-30, so that whole turns can be added without rounding.
+    const double angle = std::round(eighth_turn(random) * 0x1p30) / 0x1p30;
+    const auto [sine, cosine] = sine_and_cosine_of_degrees(angle);
+    for (const double turns : {-360.0, 0.0, 7200.0}) {
+      const SineCosine second = sine_and_cosine_of_degrees(angle + 90 + turns);
+      const SineCosine third = sine_and_cosine_of_degrees(angle + 180 + turns);
+      const SineCosine fourth = sine_and_cosine_of_degrees(angle - 90 + turns);
+      ASSERT_TRUE(second.sine == cosine && second.cosine == -sine) << angle;
+      ASSERT_TRUE(third.sine == -sine && third.cosine == -cosine) << angle;
+      ASSERT_TRUE(fourth.sine == -cosine && fourth.cosine == sine) << angle;
+    }
+  }
+}
+
+TEST(Trigonometry, SineAndCosineOfDegreesAreExactWhereTheyAreSimple) {
+  const double sines[] = {0, 0.5, 1, 0.5, 0, -0.5, -1, -0.5};
+  const double angles[] = {0, 30, 90, 150, 180, 210, 270, 330};
+  for (int turn = -3; turn <= 3; ++turn) {
+    for (std::size_t i = 0; i < std::size(angles); ++i) {
+      EXPECT_EQ(sine_and_cosine_of_degrees(angles[i] + 360 * turn).sine, sines[i]) << angles[i] << " " << turn;
+      EXPECT_EQ(sine_and_cosine_of_degrees(angles[i] - 90 + 360 * turn).cosine, sines[i]) << angles[i] << " " << turn;
+    }
+  }
+  EXPECT_EQ(sine_and_cosine_of_degrees(360e12 + 90).sine, 1);
+}
+
+TEST(Trigonometry, DegreesOfPartsOfATurnAreExact) {
+  EXPECT_EQ(degrees_of(pi), 180);
+  EXPECT_EQ(degrees_of(-pi / 2), -90);
+  EXPECT_EQ(degrees_of(pi / 4), 45);
+  EXPECT_EQ(degrees_of(0), 0);
+  EXPECT_EQ(degrees_of(1), 57.29577951308232);
+}
+
 TEST(Trigonometry, ArcTangentIsAccurateAllAround) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> angle(-pi, pi);
@@ -117,6 +173,18 @@ TEST(Trigonometry, GivesTheSameBitsOnEveryMachine) {
     add(arc_tangent(step / 1024.0, 7 - step / 4096.0));
   }
   EXPECT_EQ(sum, 10'588'919'920'268'565'976U);
+}
+
+TEST(Trigonometry, InDegreesGivesTheSameBitsOnEveryMachine) {
+  std::uint64_t sum = 0;
+  const auto add = [&sum](double value) { sum = sum * 31 + std::bit_cast<std::uint64_t>(value); };
+  for (int step = -50'000; step <= 50'000; ++step) {
+    const auto [sine, cosine] = sine_and_cosine_of_degrees(step / 64.0);
+    add(sine);
+    add(cosine);
+    add(degrees_of(step / 1024.0));
+  }
+  EXPECT_EQ(sum, 6'183'517'239'996'334'300U);
 }
 
 }  // namespace

@@ -3,16 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/gcode/machine.h"
 #include "tests/unit/gcode/program.h"
 
 namespace kcs::gcode {
 namespace {
 
-Words words_of(std::string_view text) {
-  Words words;
-  words.read(text, 7);
-  return words;
-}
+Words words_of(std::string_view text) { return Machine().words_of(text, 7); }
 
 TEST(Words, ReadsNumbersOfEveryForm) {
   const Words words = words_of("X1.5 Y-.25 Z+3. I0007 J-0");
@@ -48,6 +45,19 @@ TEST(Words, KeepsCodesInOrderWithTheirPlaces) {
   EXPECT_EQ(words.start().column, 5U);
 }
 
+TEST(Words, KeepsSettingsInOrderWithTheirPlaces) {
+  const Words words = words_of("N1 #5=2.5 X1 #<Depth>=-1");
+  ASSERT_EQ(words.settings().size(), 2U);
+  EXPECT_EQ(words.settings()[0].parameter.number, 5);
+  EXPECT_EQ(words.settings()[0].value, 2.5);
+  EXPECT_EQ(words.settings()[0].place.column, 4U);
+  EXPECT_EQ(words.settings()[1].parameter.name, "depth");
+  EXPECT_EQ(words.settings()[1].value, -1);
+  EXPECT_EQ(words.settings()[1].place.column, 14U);
+  EXPECT_EQ(words.present(), letters("NX"));
+  EXPECT_EQ(words.start().column, 11U);
+}
+
 TEST(Words, LeavesOutCommentsOfBothKinds) {
   const Words words = words_of("X1 (Y2; Z3) I4 ; J5 (K6");
   EXPECT_EQ(words.present(), letters("XI"));
@@ -75,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Words, BadLines,
                          testing::Values(BadLine{"X", "gcode, line 2, column 2", "no number"},
                                          BadLine{"G1 XY1", "gcode, line 2, column 5", "no number"},
                                          BadLine{"X1.2.3", "gcode, line 2, column 2", "is not a number"},
-                                         BadLine{"X1-2", "gcode, line 2, column 2", "is not a number"},
+                                         BadLine{"X1-2", "gcode, line 2, column 3", "in brackets"},
                                          BadLine{"X.", "gcode, line 2, column 2", "is not a number"},
                                          BadLine{"X--1", "gcode, line 2, column 2", "is not a number"},
                                          BadLine{"X+-1", "gcode, line 2, column 2", "is not a number"},
@@ -90,16 +100,14 @@ INSTANTIATE_TEST_SUITE_P(Words, BadLines,
                                          BadLine{"12", "gcode, line 2, column 1", "without a letter"},
                                          BadLine{"X1 X2", "gcode, line 2, column 4", "X comes twice"},
                                          BadLine{"F1 f2", "gcode, line 2, column 4", "F comes twice"},
-                                         BadLine{"X#1", "gcode, line 2, column 2", "parameters"},
-                                         BadLine{"#1=2", "gcode, line 2, column 1", "parameters"},
-                                         BadLine{"G1 X[1+2]", "gcode, line 2, column 5", "expressions"},
-                                         BadLine{"O100 sub", "gcode, line 2, column 1", "O words"},
+                                         BadLine{"X1-", "gcode, line 2, column 3", "without a letter"},
+                                         BadLine{"G1 X1 O100 call", "gcode, line 2, column 7", "first on its line"},
                                          BadLine{"G1 (open", "gcode, line 2, column 4", "not closed"},
                                          BadLine{"(a (b) c)", "gcode, line 2, column 4", "inside a comment"},
                                          BadLine{"G1 )", "gcode, line 2, column 4", "without '('"},
                                          BadLine{"G1 X1 /", "gcode, line 2, column 7", "first character"},
                                          BadLine{"G1 %", "gcode, line 2, column 4", "alone"},
-                                         BadLine{"G1 X1*71", "gcode, line 2, column 6", "'*'"},
+                                         BadLine{"G1 X1*71", "gcode, line 2, column 6", "checksum"},
                                          BadLine{"G1 \xC3\xA9", "gcode, line 2, column 4", "byte 195"},
                                          BadLine{"G1 \x01", "gcode, line 2, column 4", "control character 1"},
                                          BadLine{"(\x02)", "gcode, line 2, column 2", "control character 2"},
