@@ -57,6 +57,8 @@ std::string plan_json(const client::Plan& plan) {
                      {"interrupted_count", summary.interrupted_count},
                      {"uninterrupted_count", summary.uninterrupted_count},
                      {"exact_stop_count", summary.exact_stop_count},
+                     {"blended_count", summary.blended_count},
+                     {"overlapping_count", summary.overlapping_count},
                      {"time_lost_at_corners_s", summary.time_lost_at_corners_s},
                      {"dwell_time_s", summary.dwell_time_s},
                      {"time_at_feed_s", summary.time_at_feed_s},

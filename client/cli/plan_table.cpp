@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -49,14 +50,24 @@ class Table {
   std::string text_;
 };
 
+// How the corners are taken, as far as it occurs.
+void add_strategies(Table& table, const client::Summary& s) {
+  const auto add = [&table](std::string_view strategy, std::uint64_t count) {
+    if (count > 0) table.row(strategy, with_commas(count));
+  };
+  add("  interrupted", s.interrupted_count);
+  add("  uninterrupted", s.uninterrupted_count);
+  add("  blended", s.blended_count);
+  add("  overlapping", s.overlapping_count);
+  add("  exact stops", s.exact_stop_count);
+}
+
 void add_figures(Table& table, const client::Plan& plan) {
   const client::Summary& s = plan.summary;
   table.row("Cycle time", fmt::format("{}   ({:.3f} s)", clock_time(s.cycle_time_s), s.cycle_time_s));
   table.row("Path", fmt::format("{:.3f} mm in {} segments", s.path_length_mm, with_commas(s.segment_count)));
   table.row("Corners", with_commas(s.corner_count));
-  table.row("  interrupted", with_commas(s.interrupted_count));
-  table.row("  uninterrupted", with_commas(s.uninterrupted_count));
-  table.row("  exact stops", with_commas(s.exact_stop_count));
+  add_strategies(table, s);
   table.row("Lost at corners", fmt::format("{:.3f} s, {} of the cycle time", s.time_lost_at_corners_s,
                                            percentage(s.time_lost_at_corners_s, s.cycle_time_s)));
   table.row("At feed", fmt::format("{:.3f} s, {} of the cycle time", s.time_at_feed_s,

@@ -20,6 +20,10 @@ constexpr std::string_view name_of(CornerStrategy strategy) {
       return "uninterrupted";
     case CornerStrategy::kExactStop:
       return "exact-stop";
+    case CornerStrategy::kBlended:
+      return "blended";
+    case CornerStrategy::kOverlapping:
+      return "overlapping";
   }
   return "";
 }

@@ -41,10 +41,10 @@ void add_planning_options(CLI::App& app, std::string& machine, PlanOptions& opti
   add_choice(app, "--tolerance-kind", options.tolerance_kind,
              {ToleranceKind::kContourError, ToleranceKind::kCornerDistance},
              "contour: distance from the path (default);\ncorner: distance from the corner point");
-  add_choice(
-      app, "--strategy", options.strategy,
-      {CornerStrategy::kAuto, CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted, CornerStrategy::kExactStop},
-      "how corners are taken: auto (default), interrupted,\nuninterrupted, exact-stop");
+  add_choice(app, "--strategy", options.strategy,
+             {CornerStrategy::kAuto, CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted,
+              CornerStrategy::kBlended, CornerStrategy::kExactStop},
+             "how corners are taken: auto (default), interrupted,\nuninterrupted, blended, exact-stop");
   app.add_option("--feed", options.feed_mm_s, "replaces every programmed feed and the rapid")->option_text("MM_PER_S");
   app.add_option("--start", options.start_mm, "where the program starts (default: 0,0,0)")
       ->delimiter(',')

@@ -51,6 +51,10 @@ v1::CornerStrategy to_message(CornerStrategy strategy) {
       return v1::CORNER_STRATEGY_UNINTERRUPTED;
     case CornerStrategy::kExactStop:
       return v1::CORNER_STRATEGY_EXACT_STOP;
+    case CornerStrategy::kBlended:
+      return v1::CORNER_STRATEGY_BLENDED;
+    case CornerStrategy::kOverlapping:
+      return v1::CORNER_STRATEGY_OVERLAPPING;
   }
   return v1::CORNER_STRATEGY_UNSPECIFIED;
 }
@@ -75,6 +79,10 @@ CornerStrategy from_message(v1::CornerStrategy strategy) {
       return CornerStrategy::kUninterrupted;
     case v1::CORNER_STRATEGY_EXACT_STOP:
       return CornerStrategy::kExactStop;
+    case v1::CORNER_STRATEGY_BLENDED:
+      return CornerStrategy::kBlended;
+    case v1::CORNER_STRATEGY_OVERLAPPING:
+      return CornerStrategy::kOverlapping;
     default:
       return CornerStrategy::kAuto;
   }
@@ -107,6 +115,8 @@ Summary from_message(const v1::PlanSummary& message) {
           .interrupted_count = message.interrupted_count(),
           .uninterrupted_count = message.uninterrupted_count(),
           .exact_stop_count = message.exact_stop_count(),
+          .blended_count = message.blended_count(),
+          .overlapping_count = message.overlapping_count(),
           .time_lost_at_corners_s = message.time_lost_at_corners_s(),
           .dwell_time_s = message.dwell_time_s(),
           .time_at_feed_s = message.time_at_feed_s(),

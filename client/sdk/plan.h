@@ -19,10 +19,12 @@ enum class ToleranceKind {
 
 // How corners are taken.
 enum class CornerStrategy {
-  kAuto,           // the faster of the next two, for each corner
+  kAuto,           // the fastest, for each corner
   kInterrupted,    // no acceleration where the corner begins and ends
   kUninterrupted,  // brakes into the corner, accelerates out of it
   kExactStop,      // stops on the corner point
+  kBlended,        // between kInterrupted and kUninterrupted
+  kOverlapping,    // passed within one smooth motion through many corners; only reported, cannot be asked for
 };
 
 struct PlanOptions {
@@ -59,6 +61,8 @@ struct Summary {
   std::uint64_t interrupted_count = 0;  // corners by strategy
   std::uint64_t uninterrupted_count = 0;
   std::uint64_t exact_stop_count = 0;
+  std::uint64_t blended_count = 0;
+  std::uint64_t overlapping_count = 0;
   double time_lost_at_corners_s = 0;
   double dwell_time_s = 0;
   double time_at_feed_s = 0;
@@ -88,7 +92,8 @@ struct Plan {
   std::vector<Notice> notices;
 };
 
-// One joint of the path at which the direction changes or the tool stops.
+// One joint of the path at which the direction changes or the tool stops. Of a kOverlapping one: where the tool is
+// nearest to it.
 struct Corner {
   std::uint64_t segment = 0;                             // that ends here, from 0
   std::uint32_t line = 0;                                // of the program; 0 if not known

@@ -1,22 +1,27 @@
-// How far a motion is from a programmed path.
+// How far a motion is from a programmed path, and how near it comes to a point.
 #pragma once
 
 #include <span>
 
 #include "server/motion/course.h"
+#include "server/motion/curve.h"
 #include "server/motion/phase.h"
 
 namespace kcs::motion {
 
-// Distance from a point to the segment between two points, mm.
-double distance_to_segment(const Vector& point, const Vector& from, const Vector& to);
-
 // The largest distance, mm, from the phase's curve to the nearest of `pieces`, from above: never less than the true one
 // (but for rounding), and more by at most `resolution` (mm) if it is above `ignore_below` (mm); what is smaller is only
 // known to be smaller.
-// Distance to a segment is a convex function, so none of a Bézier curve is farther away than the farthest of its
-// control points; halving the curve makes that bound as sharp as is wanted.
+// `mitres`: when the phase passes from each piece to the next (mitres.h). They make it fast, not true: between them,
+// the curve is mostly near to one piece. Distance to a piece is a convex function, so no part of a curve is farther
+// away than the farthest of its Bézier points; halving the curve makes that bound as sharp as is wanted.
+double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, std::span<const double> mitres,
+                             double resolution, double ignore_below);
+// The same, with the mitres found here.
 double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, double resolution, double ignore_below);
+
+// Whether the curve comes as near as `distance` (mm) to a point. What only a billionth of the curve does goes unseen.
+bool comes_within(const Curve& curve, const Vector& point, double distance);
 
 // How near the phase's curve comes to a point, mm: at most a millionth too much where it has one nearest place.
 double closest_approach(const Phase& phase, const Vector& point);

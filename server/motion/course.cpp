@@ -1,31 +1,49 @@
 #include "server/motion/course.h"
 
-#include <optional>
-
-#include "server/motion/straight_run.h"
-
 namespace kcs::motion {
 
-double Piece::rounding() const { return position_rounding(from) + position_rounding(to); }
+Piece::Piece(const Vector& from, const PathSegment& segment, std::uint32_t index)
+    : line(from, segment.end),
+      feed(segment.feed),
+      tolerance(segment.tolerance),
+      reach(segment.reach),
+      rest(segment.rest),
+      rounding(position_rounding(from) + position_rounding(segment.end)),
+      last_segment(index) {}
 
-Course::Course(const Reference& reference) {
-  std::optional<StraightRun> run;
-  for (std::size_t i = 0; i < reference.feed.size(); ++i) {
-    const Vector &from = reference.points[i], &to = reference.points[i + 1];
-    const Piece piece{from, to, reference.feed[i], reference.tolerance[i], reference.reach[i], reference.rest[i]};
-    const bool joins = run && pieces_.back().rest < 0 && pieces_.back().feed == piece.feed &&
-                       pieces_.back().tolerance == piece.tolerance && run->extend(to);
-    if (joins) {
-      pieces_.back().to = to;
-      pieces_.back().reach = piece.reach;
-      pieces_.back().rest = piece.rest;
-    } else {
-      run.reset();
-      if (from != to) run.emplace(from, to);
-      pieces_.push_back(piece);
-    }
-    piece_of_.push_back(static_cast<std::uint32_t>(pieces_.size() - 1));
+void Piece::extend(const PathSegment& segment, std::uint32_t index) { *this = Piece(line.from(), segment, index); }
+
+void Course::add(const PathSegment& segment) {
+  const std::uint32_t index = segments_++;
+  const bool joins = run_ && window_.back().rest < 0 && window_.back().feed == segment.feed &&
+                     window_.back().tolerance == segment.tolerance && run_->extend(segment.end);
+  if (joins) {
+    window_.back().extend(segment, index);
+  } else {
+    run_.reset();
+    if (segment.end != end_) run_.emplace(end_, segment.end);
+    window_.emplace_back(end_, segment, index);
   }
+  end_ = segment.end;
+}
+
+std::uint32_t Course::settled_segments() const { return pieces() < 2 ? 0 : piece(pieces() - 2).last_segment + 1; }
+
+SegmentRange Course::pieces_of(const SegmentRange& segments) const {
+  std::uint32_t first = first_;
+  while (piece(first).last_segment < segments.first) ++first;
+  std::uint32_t last = first;
+  while (piece(last).last_segment < segments.last) ++last;
+  return {first, last};
+}
+
+void Course::forget_before(std::uint32_t index) {
+  if (index <= first_) return;
+  begin_ += index - first_;
+  first_ = index;
+  if (2 * begin_ < window_.size()) return;
+  window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(begin_));
+  begin_ = 0;
 }
 
 }  // namespace kcs::motion

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kcs::motion {
 namespace {
@@ -10,17 +11,27 @@ using Coefficients = std::array<double, 4>;
 
 double value(const Coefficients& c, double t) { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
 
-// The root between `low` and `high`, where the signs differ: halving until the doubles are used up.
-double bisect(const Coefficients& c, double low, double high) {
-  const bool rising = value(c, low) < 0;
+}  // namespace
+
+double root_between(const Coefficients& c, double low, double high) {
+  const double at_low = value(c, low), at_high = value(c, high);
+  const double resolution = std::numeric_limits<double>::epsilon() * high;
+  double width = high - low;
+  double root = low + width * (at_low / (at_low - at_high));
+  if (!(root > low && root < high)) root = low + width / 2;
   while (true) {
-    const double middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) return middle;
-    ((value(c, middle) < 0) == rising ? low : high) = middle;
+    const double error = value(c, root);
+    if (error == 0) return root;
+    ((error < 0) == (at_low < 0) ? low : high) = root;
+    // Newton's step where it stays inside and converges, a halving where it does not.
+    double next = root - error / (c[1] + root * (2 * c[2] + root * 3 * c[3]));
+    const bool inside = next > low && next < high;
+    if (!inside || std::abs(next - root) > width / 2) next = low + (high - low) / 2;
+    width = std::abs(next - root);
+    if (width <= resolution) return next;
+    root = next;
   }
 }
-
-}  // namespace
 
 Roots sign_changes(const Coefficients& c, double end) {
   // Between two neighbouring extremes the polynomial is monotone and changes its sign at most once.
@@ -42,7 +53,7 @@ Roots sign_changes(const Coefficients& c, double end) {
   Roots roots;
   for (std::size_t i = 0; i + 1 < stop_count; ++i) {
     const double low = value(c, stops[i]), high = value(c, stops[i + 1]);
-    if ((low < 0 && high > 0) || (low > 0 && high < 0)) roots.add(bisect(c, stops[i], stops[i + 1]));
+    if ((low < 0 && high > 0) || (low > 0 && high < 0)) roots.add(root_between(c, stops[i], stops[i + 1]));
   }
   return roots;
 }

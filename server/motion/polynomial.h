@@ -18,6 +18,10 @@ struct Roots {
   const double* end() const { return values.data() + count; }
 };
 
+// The root of a polynomial c0 + c1 t + c2 t² + c3 t³ between `low` and `high`, 0 ≤ low < high, where its signs differ,
+// to the last bit or two of `high`.
+double root_between(const std::array<double, 4>& coefficients, double low, double high);
+
 // The roots of c0 + c1 t + c2 t² + c3 t³ in the open interval (0, end) at which the sign changes, to the last bit
 // or two of `end`.
 Roots sign_changes(const std::array<double, 4>& coefficients, double end);

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "server/motion/contour.h"
 
@@ -17,78 +16,98 @@ bool stands(const Phase& phase) {
   return phase.start.velocity.isZero(0) && phase.start.acceleration.isZero(0) && phase.jerk.isZero(0);
 }
 
-}  // namespace
-
-Route::Route(const Course& course, double slowest)
-    : course_(course),
-      slowest_(slowest),
-      joints_(course.pieces().size() - 1, {std::numeric_limits<double>::infinity()}) {}
-
-std::string Route::follow(const Phase& phase, const SegmentRange& pieces) {
-  std::string fault = check_order(pieces);
-  if (fault.empty() && pieces.first == pieces.last) fault = check_forward(phase, course_.pieces()[pieces.first]);
-  visit_joints(phase, pieces);
-  return fault;
-}
-
-std::string Route::check_order(const SegmentRange& pieces) {
-  const bool in_order =
-      begun_ ? pieces.first >= previous_.first && pieces.last >= previous_.last && pieces.first <= previous_.last + 1
-             : pieces.first == 0;
-  begun_ = true;
-  previous_ = pieces;
-  return in_order ? "" : "a part of the path is left out or travelled out of order";
-}
-
 // Velocity along the piece: a parabola in time, least at an end or where its slope is zero.
-std::string Route::check_forward(const Phase& phase, const Piece& piece) const {
-  if (piece.from == piece.to) return "";
-  const Vector direction = (piece.to - piece.from).normalized();
+double least_advance(const Phase& phase, const State& end, const Vector& direction) {
   const double slope = phase.start.acceleration.dot(direction), bend = phase.jerk.dot(direction);
-  double least = std::min(phase.start.velocity.dot(direction), phase.at(phase.duration).velocity.dot(direction));
+  double least = std::min(phase.start.velocity.dot(direction), end.velocity.dot(direction));
   if (bend > 0 && slope < 0 && -slope / bend < phase.duration) {
     least = std::min(least, phase.at(-slope / bend).velocity.dot(direction));
   }
-  return least >= -slowest_ ? "" : fmt::format("the tool goes back on a straight line at {} mm/s", -least);
+  return least;
 }
 
-void Route::visit_joints(const Phase& phase, const SegmentRange& pieces) {
-  for (std::size_t joint = pieces.first; joint < pieces.last; ++joint) {
-    joints_[joint].nearest = std::min(joints_[joint].nearest, closest_approach(phase, course_.pieces()[joint].to));
+}  // namespace
+
+bool Route::goes_on_with(const SegmentRange& pieces) const {
+  if (!begun_) return pieces.first == 0;
+  return pieces.first >= previous_.first && pieces.last >= previous_.last && pieces.first <= previous_.last + 1;
+}
+
+std::string Route::follow(const Phase& phase, const State& end, const Course& course, const SegmentRange& pieces,
+                          std::span<const double> mitres) {
+  std::string fault = leave_behind(course, pieces.first);
+  begun_ = true;
+  previous_ = pieces;
+  joints_.resize(pieces.last + 1 - first_);
+  if (fault.empty() && pieces.first == pieces.last) {
+    const double least = least_advance(phase, end, course.piece(pieces.first).line.direction());
+    if (!(least >= -slowest_)) fault = fmt::format("the tool goes back on a straight line at {} mm/s", -least);
   }
+  see_joints(phase, end, course, pieces, mitres);
+  return fault;
+}
+
+// A phase that follows the pieces from `first` on meets their joints, and the one where `first` begins.
+std::string Route::leave_behind(const Course& course, std::uint32_t first) {
+  std::string fault;
+  for (; first_ + 1 < first; ++first_) {
+    if (fault.empty()) fault = judge(course, first_);
+    joints_.pop_front();
+  }
+  return fault;
+}
+
+void Route::see_joints(const Phase& phase, const State& end, const Course& course, const SegmentRange& pieces,
+                       std::span<const double> mitres) {
   const double standing = stands(phase) ? phase.duration : 0;
-  if (pieces.first > 0) pass(pieces.first - 1, phase.start, standing);
-  if (pieces.last < joints_.size()) pass(pieces.last, phase.at(phase.duration), standing);
-}
-
-void Route::pass(std::size_t joint, const State& state, double standing) {
-  const Piece& piece = course_.pieces()[joint];
-  const double distance = (state.position - piece.to).norm();
-  joints_[joint].nearest = std::min(joints_[joint].nearest, distance);
-  if (distance <= kOnPoint + piece.rounding() && state.velocity.norm() <= slowest_) {
-    joints_[joint].rested = std::max(joints_[joint].rested, 0.0) + standing;
+  if (pieces.first > 0) meet(pieces.first - 1, course, phase.start, standing);
+  meet(pieces.last, course, end, standing);
+  const Curve curve = Curve::between(phase.start, end, phase.duration);
+  for (std::uint32_t index = pieces.first; index < pieces.last; ++index) {
+    Joint& seen = joint(index);
+    if (seen.reached) continue;
+    const Piece& piece = course.piece(index);
+    const double near = piece.reach + kOnPoint + piece.rounding;
+    const Vector passing = phase.at(mitres[index - pieces.first]).position;
+    seen.reached =
+        (passing - piece.line.to()).squaredNorm() <= near * near || comes_within(curve, piece.line.to(), near);
   }
 }
 
-std::string Route::finish() const {
-  const auto pieces = course_.pieces();
-  if (!begun_) {
-    const bool moves = std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.from != p.to; });
-    return moves ? "nothing of the path is travelled" : "";
+// The motion begins or ends its way along a piece in `state`, or stands there.
+void Route::meet(std::uint32_t index, const Course& course, const State& state, double standing) {
+  const Piece& piece = course.piece(index);
+  Joint& seen = joint(index);
+  const double distance = (state.position - piece.line.to()).norm(), on_point = kOnPoint + piece.rounding;
+  if (distance <= piece.reach + on_point) seen.reached = true;
+  if (distance <= on_point && state.velocity.norm() <= slowest_) seen.rested = std::max(seen.rested, 0.0) + standing;
+}
+
+std::string Route::judge(const Course& course, std::uint32_t index) const {
+  const Piece& piece = course.piece(index);
+  const Joint& seen = joints_[index - first_];
+  const Vector& at = piece.line.to();
+  if (!seen.reached) {
+    return fmt::format("the tool does not come within {} mm of the corner at ({}, {}, {})", piece.reach, at.x(), at.y(),
+                       at.z());
   }
-  if (previous_.last + 1 != pieces.size()) return "the end of the path is left out";
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const Piece& piece = pieces[i];
-    const auto where = [&] { return fmt::format("at ({}, {}, {})", piece.to.x(), piece.to.y(), piece.to.z()); };
-    if (!(joints_[i].nearest <= piece.reach + kOnPoint + piece.rounding())) {
-      return fmt::format("the corner {} is passed at a distance of {} mm, more than {} mm", where(), joints_[i].nearest,
-                         piece.reach);
-    }
-    if (piece.rest >= 0 && !(joints_[i].rested >= piece.rest * (1 - 1e-12))) {
-      return fmt::format("the tool does not rest {} as long as it should", where());
-    }
+  if (piece.rest >= 0 && !(seen.rested >= piece.rest * (1 - 1e-12))) {
+    return fmt::format("the tool does not rest at ({}, {}, {}) as long as it should", at.x(), at.y(), at.z());
   }
   return "";
+}
+
+std::string Route::finish(const Course& course) const {
+  if (!begun_) {
+    const auto pieces = course.part({0, course.pieces() - 1});
+    const bool moves =
+        std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.line.from() != p.line.to(); });
+    return moves ? "nothing of the path is travelled" : "";
+  }
+  if (previous_.last + 1 != course.pieces()) return "the end of the path is left out";
+  std::string fault;
+  for (std::uint32_t i = first_; i < course.pieces() && fault.empty(); ++i) fault = judge(course, i);
+  return fault;
 }
 
 }  // namespace kcs::motion

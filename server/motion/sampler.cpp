@@ -6,23 +6,17 @@
 namespace kcs::motion {
 
 Sampler::Sampler(const Trajectory& trajectory, double period)
-    : trajectory_(trajectory),
+    : final_state_(trajectory.final_state()),
       period_(period),
       // A duration that is a whole number of periods but for its rounding gets no extra setpoint.
-      count_(static_cast<std::uint64_t>(std::ceil(trajectory.duration() / period * (1 - 1e-12))) + 1) {}
+      count_(static_cast<std::uint64_t>(std::ceil(trajectory.duration() / period * (1 - 1e-12))) + 1),
+      phase_(trajectory.begin()) {}
 
 Setpoint Sampler::at(std::uint64_t index) {
-  const auto& phases = trajectory_.phases;
-  if (index + 1 >= count_ || phases.empty()) return {State{.position = trajectory_.end}, Vector::Zero()};
+  if (index + 1 >= count_) return {final_state_, Vector::Zero()};
   const double time = static_cast<double>(index) * period_;
-  if (time < phases[phase_].start_time || (phase_ + 64 < phases.size() && time >= phases[phase_ + 64].start_time)) {
-    const auto after = std::upper_bound(phases.begin(), phases.end(), time,
-                                        [](double t, const Phase& phase) { return t < phase.start_time; });
-    phase_ = static_cast<std::size_t>(after - phases.begin()) - 1;
-  }
-  while (phase_ + 1 < phases.size() && time >= phases[phase_ + 1].start_time) ++phase_;
-  const Phase& phase = phases[phase_];
-  return {phase.at(std::min(time - phase.start_time, phase.duration)), phase.jerk};
+  if (time < phase_->start_time || time >= phase_->end_time()) phase_.seek(time);
+  return {phase_->at(std::min(time - phase_->start_time, phase_->duration)), phase_->jerk};
 }
 
 }  // namespace kcs::motion

@@ -14,8 +14,8 @@ struct Setpoint {
   Vector jerk = Vector::Zero();  // mm/s³; where two phases meet, that of the later one
 };
 
-// Samples a trajectory at the times i × period. The last setpoint is the exact end, at rest; it belongs to the first
-// multiple of the period that is not before the end.
+// Samples a trajectory at the times i × period. The last setpoint is the exact end; it belongs to the first multiple of
+// the period that is not before the end.
 // Setpoint i depends on the trajectory, the period and i alone, so any part of the sequence can be computed again.
 // Going on to higher indices costs constant time a setpoint; jumping costs a binary search.
 // The trajectory must outlive the sampler. Not for use by two threads at once; each takes its own.
@@ -31,10 +31,10 @@ class Sampler {
   Setpoint at(std::uint64_t index);
 
  private:
-  const Trajectory& trajectory_;
+  State final_state_;
   double period_;
   std::uint64_t count_;
-  std::size_t phase_ = 0;  // where the last setpoint was found
+  Trajectory::Iterator phase_;  // where the last setpoint was found
 };
 
 }  // namespace kcs::motion

@@ -6,15 +6,10 @@
 namespace kcs::planning {
 namespace {
 
-// A curve that just touches its tolerance must not be found outside by a rounding.
-constexpr double kToleranceMargin = 1 - 1e-7;
-
 // With a limit on contour error alone, sharp corners could be cut without bound: the nearer the legs, the less the
 // path notices that its tip is missing. So the corner point keeps the curve this many tolerances near…
-constexpr double kDeepestCut = 4;
 // …and one tolerance near where the tool goes back on its own path (a drilled hole has a bottom).
-// It begins at 175°: below this cosine of half the angle.
-constexpr double kReversal = 0.043619387365336;
+constexpr double kDeepestCut = 4;
 
 // A tolerance below this is none: coordinates cannot tell.
 constexpr double kNoTolerance = 1e-12;  // mm
@@ -44,6 +39,7 @@ CornerGeometry corner_geometry(const Leg& in, const Leg& out, const PlanOptions&
   corner.angle = 2 * std::atan2(corner.half_sine, corner.half_cosine);
   corner.straight = is_straight(corner, options.limits);
   const double tolerance = std::min(in.tolerance, out.tolerance);
+  corner.tolerance = tolerance * kToleranceMargin;
   corner.reach = reach_of(corner, tolerance, options.tolerance_kind);
   corner.cut = tolerance < kNoTolerance ? 0 : corner.reach * kToleranceMargin;
   return corner;

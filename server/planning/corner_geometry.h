@@ -6,6 +6,12 @@
 
 namespace kcs::planning {
 
+// A curve that just touches its tolerance must not be found outside by a rounding.
+inline constexpr double kToleranceMargin = 1 - 1e-7;
+
+// Below this cosine of half the angle, from 175° on, the tool goes back on its own path.
+inline constexpr double kReversal = 0.043619387365336;
+
 // Tajima and Sencer 2016, figure 1, in vector form: nothing here is planar.
 struct CornerGeometry {
   const Leg& in;
@@ -15,6 +21,7 @@ struct CornerGeometry {
   double half_sine = 0;                // sin(θ2/2) = |D|/2
   double half_cosine = 0;              // cos(θ2/2) = |ts + te|/2
   double angle = 0;                    // θ2: 0 straight on, π reversal
+  double tolerance = 0;                // the smaller of the legs', with a margin for rounding, mm
   double reach = 0;                    // how near the tool must come to the corner point, mm
   double cut = 0;                      // ε: the same with a margin for rounding; what smoothing may use
   bool straight = false;               // the direction changes by no more than rounding: nothing to smooth

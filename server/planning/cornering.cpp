@@ -1,6 +1,8 @@
 #include "server/planning/cornering.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "server/planning/leg_profile.h"
 #include "server/planning/search.h"
@@ -31,14 +33,50 @@ double excess(const Leg& leg, const CornerMotion& motion) {
   return 2 * (motion.length + ramp_from(leg, end, end.level).distance) - leg.length;
 }
 
+// A trial may leave this share of a leg unused.
+constexpr double kTrialShare = 1e-6;
+
 // Time over both half legs with the corner as fast as they let it be.
 double trial_time(const CornerGeometry& corner, const Cornering& cornering) {
-  const double speed = largest_fitting(0, cornering.max_speed(), 0, [&](double v) {
+  const double slack = kTrialShare * std::min(corner.in.length, corner.out.length);
+  const double speed = largest_fitting(0, cornering.max_speed(), slack, [&](double v) {
     const CornerMotion motion = cornering.at(v);
     return std::max(excess(corner.in, motion), excess(corner.out, motion));
   });
   const CornerMotion motion = cornering.at(speed);
   return half_leg_time(corner.in, motion) + motion.duration + half_leg_time(corner.out, motion);
+}
+
+// The blend that takes the least time, of a few: around the best one the time hardly changes.
+Cornering fastest_blend(const CornerGeometry& corner, const AxisLimits& limits) {
+  constexpr std::array kShares{0.1, 0.2, 0.3, 0.4, 0.5, 0.625, 0.75, 0.875, 0.99};
+  constexpr std::array kSwings{0.0, 0.5, 1.0};
+  Cornering best;
+  double best_time = std::numeric_limits<double>::infinity();
+  for (const double swing : kSwings) {
+    for (const double share : kShares) {
+      const Cornering tried{Blended(corner, limits, {share, swing})};
+      const double time = trial_time(corner, tried);
+      if (time < best_time) {
+        best = tried;
+        best_time = time;
+      }
+    }
+  }
+  return best;
+}
+
+// At the feed all the way, as the way through an interrupted corner is as long as its legs are there.
+bool loses_nothing(const CornerGeometry& corner, const Cornering& interrupted) {
+  const double speed = interrupted.max_speed();
+  const CornerMotion motion = interrupted.at(speed);
+  return speed >= std::max(corner.in.feed, corner.out.feed) && excess(corner.in, motion) <= 0 &&
+         excess(corner.out, motion) <= 0;
+}
+
+// The one of the two that takes less time; the first, if both take the same.
+const Cornering& faster(const CornerGeometry& corner, const Cornering& first, const Cornering& second) {
+  return trial_time(corner, first) <= trial_time(corner, second) ? first : second;
 }
 
 }  // namespace
@@ -71,6 +109,7 @@ void Cornering::append_phases(const CornerGeometry& corner, double speed, std::v
 
 CornerStrategy Cornering::strategy() const {
   if (std::holds_alternative<ExactStop>(way_)) return CornerStrategy::kExactStop;
+  if (std::holds_alternative<Blended>(way_)) return CornerStrategy::kBlended;
   return std::holds_alternative<Uninterrupted>(way_) ? CornerStrategy::kUninterrupted : CornerStrategy::kInterrupted;
 }
 
@@ -81,7 +120,11 @@ Cornering choose_cornering(const CornerGeometry& corner, CornerStrategy strategy
   if (strategy == CornerStrategy::kInterrupted) return interrupted;
   const Cornering uninterrupted{Uninterrupted(corner, limits)};
   if (strategy == CornerStrategy::kUninterrupted) return uninterrupted;
-  return trial_time(corner, interrupted) <= trial_time(corner, uninterrupted) ? interrupted : uninterrupted;
+  const Cornering& paper = faster(corner, interrupted, uninterrupted);
+  if (!Blended::suits(corner) || (strategy == CornerStrategy::kAuto && loses_nothing(corner, interrupted)))
+    return paper;
+  const Cornering blended = fastest_blend(corner, limits);
+  return strategy == CornerStrategy::kBlended ? blended : faster(corner, paper, blended);
 }
 
 }  // namespace kcs::planning

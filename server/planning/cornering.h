@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "server/planning/blended.h"
 #include "server/planning/corner_geometry.h"
 #include "server/planning/interrupted.h"
 #include "server/planning/options.h"
@@ -25,6 +26,7 @@ class Cornering {
   explicit Cornering(const Passage& passage) : way_(passage) {}
   explicit Cornering(const Interrupted& way) : way_(way) {}
   explicit Cornering(const Uninterrupted& way) : way_(way) {}
+  explicit Cornering(const Blended& way) : way_(way) {}
 
   // mm/s
   double max_speed() const;
@@ -44,11 +46,12 @@ class Cornering {
   CornerStrategy strategy() const;
 
  private:
-  std::variant<ExactStop, Passage, Interrupted, Uninterrupted> way_;
+  std::variant<ExactStop, Passage, Interrupted, Uninterrupted, Blended> way_;
 };
 
-// The fastest family of the given strategy for a corner; for kAuto the faster of the paper's two, judged by the time
-// from the middle of one leg to the middle of the other as if the legs' far ends had corners like this one.
+// The fastest family of the given strategy for a corner; for kAuto the fastest of all, judged by the time from the
+// middle of one leg to the middle of the other as if the legs' far ends had corners like this one. For a corner that
+// blends do not suit, kBlended is the faster of the paper's two.
 Cornering choose_cornering(const CornerGeometry& corner, CornerStrategy strategy, const AxisLimits& limits);
 
 }  // namespace kcs::planning

@@ -28,23 +28,27 @@ struct Span {
 
 class LookAhead {
  public:
-  LookAhead(std::span<const Leg> legs, std::span<const Cornering> cornerings) : legs_(legs), cornerings_(cornerings) {
-    for (const Cornering& cornering : cornerings) speeds_.push_back(cornering.max_speed());
+  explicit LookAhead(std::span<const Stage> stages) : stages_(stages) {
+    for (const Stage& stage : stages) speeds_.push_back(stage.exit.max_speed());
   }
 
   std::vector<double> run() {
-    for (std::size_t i = 0; i < legs_.size(); ++i) level(i);
-    for (std::size_t i = legs_.size(); i-- > 1;) brake(i);
-    for (std::size_t i = 0; i < legs_.size(); ++i) accelerate(i);
+    for (std::size_t i = 0; i < stages_.size(); ++i) level(i);
+    do {
+      for (std::size_t i = stages_.size(); i-- > 1;) brake(i);
+      again_ = false;
+      for (std::size_t i = 0; i < stages_.size(); ++i) accelerate(i);
+    } while (again_);
     return std::move(speeds_);
   }
 
  private:
-  Span span(std::size_t i) const { return {legs_[i], i == 0 ? kRest : cornerings_[i - 1], cornerings_[i]}; }
+  Span span(std::size_t i) const { return {stages_[i].leg, i == 0 ? kRest : stages_[i - 1].exit, stages_[i].exit}; }
   double entry_speed(std::size_t i) const { return i == 0 ? 0 : speeds_[i - 1]; }
 
   // Lowers the greatest speeds of both corners to a common level that the leg can carry.
   void level(std::size_t i) {
+    if (stages_[i].stretch) return;
     const Span span = this->span(i);
     const double entry_cap = span.entry.max_speed(), exit_cap = span.exit.max_speed();
     if (span.possible(entry_cap, exit_cap)) return;
@@ -57,35 +61,46 @@ class LookAhead {
     speeds_[i] = std::min(speeds_[i], exit_at(common));
   }
 
-  // Lowers the entry of leg i until the tool can brake to its exit.
+  // Lowers the entry of stage i until the tool can brake to its exit.
   void brake(std::size_t i) {
-    const Span span = this->span(i);
     double& entry = speeds_[i - 1];
     const double exit = speeds_[i];
+    if (stages_[i].stretch) {
+      entry = std::min(entry, stages_[i].stretch->plan({entry, exit}).entry);
+      return;
+    }
+    const Span span = this->span(i);
     if (span.possible(entry, exit) || span.entry_level(entry) <= span.exit_level(exit)) return;
     const double equal = std::min(entry, span.entry.speed_at_level(span.exit_level(exit), span.leg.jerk));
     entry = largest_fitting(equal, entry, span.slack(), [&](double speed) { return span.excess(speed, exit); });
   }
 
-  // Lowers the exit of leg i until it can be reached from its entry.
+  // Lowers the exit of stage i until it can be reached from its entry.
   void accelerate(std::size_t i) {
-    const Span span = this->span(i);
     const double entry = entry_speed(i);
     double& exit = speeds_[i];
+    if (stages_[i].stretch) {
+      const EndSpeeds ends = stages_[i].stretch->plan({entry, exit});
+      exit = ends.exit;
+      if (ends.entry < entry) {
+        speeds_[i - 1] = ends.entry;
+        again_ = true;
+      }
+      return;
+    }
+    const Span span = this->span(i);
     if (span.possible(entry, exit)) return;
     const double equal = std::min(exit, span.exit.speed_at_level(span.entry_level(entry), span.leg.jerk));
     exit = largest_fitting(equal, exit, span.slack(), [&](double speed) { return span.excess(entry, speed); });
   }
 
-  std::span<const Leg> legs_;
-  std::span<const Cornering> cornerings_;
+  std::span<const Stage> stages_;
   std::vector<double> speeds_;
+  bool again_ = false;
 };
 
 }  // namespace
 
-std::vector<double> corner_speeds(std::span<const Leg> legs, std::span<const Cornering> cornerings) {
-  return LookAhead(legs, cornerings).run();
-}
+std::vector<double> corner_speeds(std::span<const Stage> stages) { return LookAhead(stages).run(); }
 
 }  // namespace kcs::planning

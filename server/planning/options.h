@@ -20,10 +20,12 @@ enum class ToleranceKind {
 
 // How corners are taken (Tajima and Sencer 2016).
 enum class CornerStrategy {
-  kAuto,           // the faster of the next two, for each corner
+  kAuto,           // the fastest of the others, for each corner
   kInterrupted,    // section 2.2: no acceleration where the corner begins and ends
   kUninterrupted,  // section 2.3: brakes into the corner, accelerates out of it
   kExactStop,      // rests on the corner point
+  kBlended,        // between the paper's two, see blended.h
+  kOverlapping,    // one of many in one smooth motion, see stretch.h; is never asked for
 };
 
 struct PlanOptions {

@@ -18,11 +18,12 @@ struct Corner {
   Vector point = Vector::Zero();  // mm
   double angle = 0;               // direction change, rad, 0 to π
   CornerStrategy strategy = CornerStrategy::kExactStop;  // never kAuto
-  double speed = 0;                                      // where the corner begins and ends, mm/s
+  double speed = 0;                                      // where it begins and ends, mm/s; kOverlapping: at its middle
   double boundary_acceleration = 0;                      // there, along the path, magnitude, mm/s²
   double duration = 0;                                   // inside the corner, dwell included, s
   double dwell = 0;                                      // s
-  double corner_distance = 0;                            // corner point to the middle of the smoothed corner, mm
+  double corner_distance = 0;                            // corner point to the middle of the smoothed corner,
+                                                         // or to where the tool is nearest (kOverlapping), mm
   double contour_error = 0;                              // smoothed corner to programmed path, mm
   double time_lost = 0;                                  // s, see Corner.time_lost_s of the contract
 };
@@ -33,6 +34,8 @@ struct Summary {
   std::size_t segments = 0;     // segments of no length not counted
   std::size_t interrupted = 0;  // corners by strategy
   std::size_t uninterrupted = 0;
+  std::size_t blended = 0;
+  std::size_t overlapping = 0;
   std::size_t exact_stops = 0;
   double time_lost_at_corners = 0;  // s
   double dwell_time = 0;            // s

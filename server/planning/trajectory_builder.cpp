@@ -24,7 +24,7 @@ void TrajectoryBuilder::append(motion::Phase phase, const motion::SegmentRange& 
   phase.start_time = time_;
   phase.segments = segments;
   time_ = phase.end_time();
-  trajectory_.phases.push_back(phase);
+  trajectory_.append(phase);
 }
 
 void TrajectoryBuilder::dwell(const Vector& point, double duration, std::uint32_t segment) {
@@ -71,8 +71,15 @@ void TrajectoryBuilder::corner(const CornerGeometry& geometry, const Cornering& 
   }
 }
 
+void TrajectoryBuilder::stretch(const Stretch& stretch) {
+  for (std::size_t i = 0; i < stretch.spline().pieces(); ++i) {
+    const motion::Phase phase = stretch.phase(i);
+    append(phase, phase.segments);
+  }
+}
+
 motion::Trajectory TrajectoryBuilder::finish(const Vector& end) {
-  trajectory_.end = end;
+  trajectory_.set_final_state({.position = end});
   return std::move(trajectory_);
 }
 

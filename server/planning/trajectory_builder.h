@@ -5,6 +5,7 @@
 #include "server/planning/corner_motion.h"
 #include "server/planning/cornering.h"
 #include "server/planning/leg.h"
+#include "server/planning/stretch.h"
 
 namespace kcs::planning {
 
@@ -26,6 +27,8 @@ class TrajectoryBuilder {
 
   // Takes the corner at `speed` > 0.
   void corner(const CornerGeometry& geometry, const Cornering& cornering, double speed);
+
+  void stretch(const Stretch& stretch);
 
   motion::Trajectory finish(const Vector& end);
 

@@ -76,6 +76,9 @@ void validate(const Toolpath& path, const PlanOptions& options) {
   check_axis(validation, "acceleration", limits.acceleration, limits.axes, range::kMinAcceleration,
              range::kMaxAcceleration, "mm/s²");
   check_axis(validation, "jerk", limits.jerk, limits.axes, range::kMinJerk, range::kMaxJerk, "mm/s³");
+  if (options.strategy == CornerStrategy::kOverlapping) {
+    validation.add("strategy", "is only reported, never asked for; ask for kAuto, which lets corners overlap");
+  }
   check_point(validation, "path, start", path.start, limits.axes);
   if (path.segments.empty()) validation.add("path", "has no segment; give at least one move");
   for (std::size_t i = 0; i < path.segments.size() && !validation.full(); ++i) {

@@ -84,6 +84,8 @@ std::optional<planning::CornerStrategy> decode_strategy(v1::CornerStrategy strat
       return planning::CornerStrategy::kUninterrupted;
     case v1::CORNER_STRATEGY_EXACT_STOP:
       return planning::CornerStrategy::kExactStop;
+    case v1::CORNER_STRATEGY_BLENDED:
+      return planning::CornerStrategy::kBlended;
     default:
       return std::nullopt;
   }
@@ -112,8 +114,13 @@ jobs::RequestOptions decode_options(const v1::PlanOptions& options) {
   }
   decoded.planning.tolerance_kind = known_or_refused(
       "options.tolerance_kind", decode_tolerance_kind(options.tolerance_kind()), options.tolerance_kind(), violations);
-  decoded.planning.strategy =
-      known_or_refused("options.strategy", decode_strategy(options.strategy()), options.strategy(), violations);
+  if (options.strategy() == v1::CORNER_STRATEGY_OVERLAPPING) {
+    violations.add("options.strategy",
+                   "OVERLAPPING is only reported: ask for AUTO, which lets corners overlap where they are near");
+  } else {
+    decoded.planning.strategy =
+        known_or_refused("options.strategy", decode_strategy(options.strategy()), options.strategy(), violations);
+  }
   if (options.has_feed_mm_s()) {
     violations.check_range("options.feed_mm_s", options.feed_mm_s(), range::kMinFeed, range::kMaxFeed, "mm/s");
     decoded.feed = options.feed_mm_s();

@@ -31,6 +31,10 @@ v1::CornerStrategy encode_strategy(planning::CornerStrategy strategy) {
       return v1::CORNER_STRATEGY_UNINTERRUPTED;
     case planning::CornerStrategy::kExactStop:
       return v1::CORNER_STRATEGY_EXACT_STOP;
+    case planning::CornerStrategy::kBlended:
+      return v1::CORNER_STRATEGY_BLENDED;
+    case planning::CornerStrategy::kOverlapping:
+      return v1::CORNER_STRATEGY_OVERLAPPING;
   }
   return v1::CORNER_STRATEGY_UNSPECIFIED;
 }
@@ -61,6 +65,8 @@ void encode_summary(const jobs::KeptPlan& kept, v1::PlanSummary& message) {
   message.set_interrupted_count(summary.interrupted);
   message.set_uninterrupted_count(summary.uninterrupted);
   message.set_exact_stop_count(summary.exact_stops);
+  message.set_blended_count(summary.blended);
+  message.set_overlapping_count(summary.overlapping);
   message.set_time_lost_at_corners_s(summary.time_lost_at_corners);
   message.set_dwell_time_s(summary.dwell_time);
   message.set_time_at_feed_s(summary.time_at_feed);
@@ -70,9 +76,9 @@ void encode_summary(const jobs::KeptPlan& kept, v1::PlanSummary& message) {
   encode_vector(summary.max_velocity, axes, *message.mutable_max_velocity_mm_s());
   encode_vector(summary.max_acceleration, axes, *message.mutable_max_acceleration_mm_s2());
   encode_vector(summary.max_jerk, axes, *message.mutable_max_jerk_mm_s3());
-  message.set_phase_count(kept.plan.trajectory.phases.size());
+  message.set_phase_count(kept.plan.trajectory.size());
   encode_vector(kept.plan.start, axes, *message.mutable_start_mm());
-  encode_vector(kept.plan.trajectory.end, axes, *message.mutable_end_mm());
+  encode_vector(kept.plan.trajectory.final_state().position, axes, *message.mutable_end_mm());
 }
 
 }  // namespace

@@ -1,19 +1,18 @@
-// What must hold for every plan, tried on many random paths, and judged here by means of its own: plain sampling and
-// plain geometry, not the verifier that the planner itself uses.
+// What must hold for every plan, tried on many random paths.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
-#include "server/motion/sampler.h"
 #include "server/planning/planner.h"
+#include "tests/property/dense_case.h"
+#include "tests/property/judge.h"
 #include "tests/property/random_case.h"
 
 namespace kcs::test {
@@ -21,146 +20,25 @@ namespace {
 
 using motion::Phase;
 using motion::State;
-using motion::Vector;
 using planning::CornerStrategy;
 using planning::Plan;
 
-constexpr std::uint64_t kShards = 8;
-
-// KCS_CASES in the environment asks for more (or fewer).
-std::uint64_t cases_per_shard() {
+// Cases of a suite; KCS_CASES in the environment asks for more (or fewer) of all.
+std::uint64_t cases(std::uint64_t usual) {
+  constexpr std::uint64_t kUsual = 24'000;
   const char* wanted = std::getenv("KCS_CASES");
-  return (wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 24'000) / kShards;
+  return wanted != nullptr ? usual * std::strtoull(wanted, nullptr, 10) / kUsual : usual;
 }
 
-// No limit is exceeded by more than rounding.
-constexpr double kLimit = 1 + 1e-9;
-
-// The distance from a point to the nearest place of the whole path, not only of the segments that a phase names.
-double distance_to_path(const Vector& point, const planning::Toolpath& path) {
-  double nearest = INFINITY;
-  for (std::size_t i = 0; i < path.segments.size(); ++i) {
-    const Vector from = path.start_of(i), along = path.segments[i].end - from;
-    const double square = along.squaredNorm();
-    const double share = square > 0 ? std::clamp((point - from).dot(along) / square, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (point - from - share * along).norm());
-  }
-  return nearest;
-}
-
-// The segments of the case that count, as phases number them.
-std::vector<planning::Segment> moving_segments(const planning::Toolpath& path) {
-  std::vector<planning::Segment> result;
-  for (std::size_t i = 0; i < path.segments.size(); ++i) {
-    if ((path.segments[i].end - path.start_of(i)).norm() >= planning::kNoLength) result.push_back(path.segments[i]);
-  }
-  return result;
-}
-
-class Judge {
- public:
-  Judge(const Case& problem, const Plan& plan)
-      : problem_(problem), plan_(plan), segments_(moving_segments(problem.path)) {
-    for (const auto& segment : problem.path.segments) {
-      rounding_ = std::max(rounding_, 1e-15 * segment.end.cwiseAbs().maxCoeff());
-    }
-  }
-
-  void run() {
-    State at{.position = problem_.path.start};
-    double time = 0;
-    for (const Phase& phase : plan_.trajectory.phases) {
-      ASSERT_GT(phase.duration, 0);
-      ASSERT_EQ(phase.start_time, time);
-      continuous(at, phase.start);
-      for (int i = 0; i <= 8; ++i) inside_limits(phase, phase.at(phase.duration * i / 8));
-      at = phase.at(phase.duration);
-      time = phase.end_time();
-    }
-    State end;
-    end.position = problem_.path.segments.back().end;
-    continuous(at, end);
-    EXPECT_LE((plan_.trajectory.end - end.position).norm(), 1e-9);
-    stops_are_reached();
-    corners_keep_their_tolerance();
-  }
-
- private:
-  void continuous(const State& before, const State& after) {
-    const auto& limits = problem_.options.limits;
-    EXPECT_LE((after.position - before.position).norm(), 1e-9 + 16 * rounding_);
-    for (std::size_t axis = 0; axis < limits.axes; ++axis) {
-      EXPECT_LE(std::abs(after.velocity[axis] - before.velocity[axis]), 1e-9 * limits.velocity[axis]);
-      EXPECT_LE(std::abs(after.acceleration[axis] - before.acceleration[axis]), 1e-9 * limits.acceleration[axis]);
-    }
-  }
-
-  void inside_limits(const Phase& phase, const State& state) {
-    const auto& limits = problem_.options.limits;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool exists = axis < limits.axes;
-      EXPECT_LE(std::abs(state.velocity[axis]), exists ? limits.velocity[axis] * kLimit : 0);
-      EXPECT_LE(std::abs(state.acceleration[axis]), exists ? limits.acceleration[axis] * kLimit : 0);
-      EXPECT_LE(std::abs(phase.jerk[axis]), exists ? limits.jerk[axis] * kLimit : 0);
-    }
-    double feed = INFINITY, tolerance = 0;
-    for (std::size_t i = phase.segments.first; i <= phase.segments.last && !segments_.empty(); ++i) {
-      feed = std::min(feed, segments_.at(i).feed);
-      tolerance = std::max(tolerance, segments_[i].tolerance);
-    }
-    EXPECT_LE(state.velocity.norm(), feed * kLimit);
-    EXPECT_LE(distance_to_path(state.position, problem_.path), tolerance + 16 * rounding_);
-  }
-
-  void stops_are_reached() {
-    for (const auto& segment : problem_.path.segments) {
-      if (!segment.stop && segment.dwell == 0) continue;
-      double nearest = (plan_.trajectory.end - segment.end).norm();
-      for (const Phase& phase : plan_.trajectory.phases) {
-        if (phase.start.velocity.norm() <= 1e-9 * problem_.options.limits.velocity.maxCoeff()) {
-          nearest = std::min(nearest, (phase.start.position - segment.end).norm());
-        }
-      }
-      EXPECT_LE(nearest, 2e-9 + 16 * rounding_);
-    }
-  }
-
-  // The corner distance is not something that the contour error shows.
-  void corners_keep_their_tolerance() {
-    for (const auto& corner : plan_.corners) {
-      ASSERT_LT(corner.segment + 1, segments_.size());
-      const double tolerance = std::min(segments_[corner.segment].tolerance, segments_[corner.segment + 1].tolerance);
-      const bool contour = problem_.options.tolerance_kind == planning::ToleranceKind::kContourError;
-      EXPECT_LE(corner.corner_distance, tolerance * (contour ? 4 : 1));
-      EXPECT_LE(corner.contour_error, tolerance);
-      double nearest = INFINITY;
-      for (const Phase& phase : plan_.trajectory.phases) {
-        if (phase.segments.last < corner.segment || phase.segments.first > corner.segment + 1) continue;
-        for (int i = 0; i <= 8; ++i) {
-          nearest = std::min(nearest, (phase.at(phase.duration * i / 8).position - corner.point).norm());
-        }
-      }
-      // Sampling finds the middle of the corner exactly: it is the middle, the quarter or an end of a phase.
-      EXPECT_LE(nearest, corner.corner_distance * (1 + 1e-6) + 16 * rounding_ + 1e-12);
-    }
-  }
-
-  const Case& problem_;
-  const Plan& plan_;
-  std::vector<planning::Segment> segments_;
-  double rounding_ = 1e-15;
-};
-
-class RandomPaths : public testing::TestWithParam<std::uint64_t> {};
-
-TEST_P(RandomPaths, KeepEveryPromise) {
-  const std::uint64_t count = cases_per_shard(), first = GetParam() * count;
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const Case problem = random_case(seed);
+// The cases of one shard of a suite, with what to change in each; ends with the first that fails.
+void keep_every_promise(
+    Case (*make)(std::uint64_t seed), std::uint64_t shard, std::uint64_t count, void (*change)(Case&) = [](Case&) {}) {
+  for (std::uint64_t seed = shard * count; seed < (shard + 1) * count; ++seed) {
+    Case problem = make(seed);
+    change(problem);
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     try {
-      const Plan plan = planning::plan(problem.path, problem.options);
-      Judge(problem, plan).run();
+      judge(problem, planning::plan(problem.path, problem.options));
     } catch (const std::exception& error) {
       ADD_FAILURE() << "a valid path was refused: " << error.what();
     }
@@ -168,27 +46,59 @@ TEST_P(RandomPaths, KeepEveryPromise) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomPaths, testing::Range<std::uint64_t>(0, kShards));
+constexpr std::uint64_t kRandomShards = 8, kBlendedShards = 1, kDenseShards = 8;
+
+class RandomPaths : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomPaths, KeepEveryPromise) { keep_every_promise(random_case, GetParam(), cases(24'000) / kRandomShards); }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomPaths, testing::Range<std::uint64_t>(0, kRandomShards));
+
+class BlendedPaths : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(BlendedPaths, KeepEveryPromise) {
+  keep_every_promise(random_case, GetParam(), cases(2'000) / kBlendedShards,
+                     [](Case& problem) { problem.options.strategy = CornerStrategy::kBlended; });
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, BlendedPaths, testing::Range<std::uint64_t>(0, kBlendedShards));
+
+class DensePaths : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(DensePaths, KeepEveryPromise) { keep_every_promise(dense_case, GetParam(), cases(400) / kDenseShards); }
+
+INSTANTIATE_TEST_SUITE_P(Dense, DensePaths, testing::Range<std::uint64_t>(0, kDenseShards));
+
+// Else the suite above says nothing about them.
+TEST(DenseCases, AreMostlyTravelledInSmoothMotions) {
+  std::size_t corners = 0, overlapping = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Case problem = dense_case(seed);
+    const Plan plan = planning::plan(problem.path, problem.options);
+    corners += plan.corners.size();
+    overlapping += plan.summary.overlapping;
+  }
+  EXPECT_GT(2 * overlapping, corners);
+}
 
 bool same_bytes(const Plan& a, const Plan& b) {
-  const auto& p = a.trajectory.phases;
-  const auto& q = b.trajectory.phases;
-  if (p.size() != q.size() || a.corners.size() != b.corners.size()) return false;
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  if (a.trajectory.size() != b.trajectory.size() || a.corners.size() != b.corners.size()) return false;
+  auto p = a.trajectory.begin(), q = b.trajectory.begin();
+  for (; p != a.trajectory.end(); ++p, ++q) {
     const auto numbers = [](const Phase& phase) {
       const State& s = phase.start;
       return std::vector<double>{phase.start_time,  phase.duration, s.position[0], s.position[1],     s.position[2],
                                  s.velocity[0],     s.velocity[1],  s.velocity[2], s.acceleration[0], s.acceleration[1],
                                  s.acceleration[2], phase.jerk[0],  phase.jerk[1], phase.jerk[2]};
     };
-    const auto x = numbers(p[i]), y = numbers(q[i]);
+    const auto x = numbers(*p), y = numbers(*q);
     if (std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) != 0) return false;
   }
   return std::memcmp(&a.summary, &b.summary, sizeof(a.summary)) == 0;
 }
 
 TEST(Determinism, TwoThreadsPlanTheSameBytesAsOne) {
-  constexpr std::uint64_t kSome = 2'000;
+  constexpr std::uint64_t kSome = 1'000;
   std::vector<Plan> alone, together(kSome);
   for (std::uint64_t seed = 0; seed < kSome; ++seed) {
     const Case problem = random_case(seed);
@@ -209,8 +119,16 @@ TEST(Determinism, TwoThreadsPlanTheSameBytesAsOne) {
   }
 }
 
+TEST(Determinism, DensePathsAreTheSameBytesAgain) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Case problem = dense_case(seed);
+    const auto planned = [&] { return planning::plan(problem.path, problem.options); };
+    EXPECT_TRUE(same_bytes(planned(), planned())) << "seed " << seed;
+  }
+}
+
 TEST(Auto, TakesNoLongerThanEitherStrategyAlone) {
-  for (std::uint64_t seed = 0; seed < 4'000; ++seed) {
+  for (std::uint64_t seed = 0; seed < 1'000; ++seed) {
     Case problem = random_case(seed);
     const auto time = [&](CornerStrategy strategy) {
       problem.options.strategy = strategy;

@@ -4,7 +4,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
+
+#include "tests/property/random.h"
 
 namespace kcs::test {
 namespace {
@@ -13,9 +14,9 @@ using planning::CornerStrategy;
 using planning::ToleranceKind;
 using planning::Vector;
 
-class Maker {
+class Maker : Random {
  public:
-  explicit Maker(std::uint64_t seed) : random_(seed) {}
+  using Random::Random;
 
   Case make() {
     Case result;
@@ -25,17 +26,6 @@ class Maker {
   }
 
  private:
-  // Made from the generator's bits alone: the standard's distributions differ between libraries.
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-  bool chance(double probability) { return uniform(0, 1) < probability; }
-  template <class T>
-  T one_of(std::initializer_list<T> choices) {
-    return choices.begin()[random_() % choices.size()];
-  }
-
   void make_options(planning::PlanOptions& options) {
     axes_ = one_of<std::size_t>({2, 3});
     options.limits.axes = axes_;
@@ -63,7 +53,7 @@ class Maker {
     const double stops = one_of({0.0, 0.0, 0.1});
     Vector direction = any_direction();
     Vector at = path.start;
-    const std::uint64_t count = 1 + random_() % 40;
+    const std::uint64_t count = 1 + bits() % 40;
     const bool equal_pieces = chance(0.1), back_to_zero = chance(0.05);
     for (std::uint64_t i = 0; i < count; ++i) {
       planning::Segment segment;
@@ -102,7 +92,7 @@ class Maker {
                 std::numbers::pi - log_uniform(1e-9, 1), std::numbers::pi / 2});
     if (chance(0.1)) {  // along an axis
       Vector along_axis = Vector::Zero();
-      along_axis[static_cast<Eigen::Index>(random_() % axes_)] = one_of({-1.0, 1.0});
+      along_axis[static_cast<Eigen::Index>(bits() % axes_)] = one_of({-1.0, 1.0});
       return along_axis;
     }
     Vector aside = any_direction();
@@ -111,7 +101,6 @@ class Maker {
     return (std::cos(angle) * direction + std::sin(angle) * aside.normalized()).normalized();
   }
 
-  std::mt19937_64 random_;
   std::size_t axes_ = 3;
   double feed_ = 0;
   double tolerance_ = 0;

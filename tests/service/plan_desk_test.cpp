@@ -28,7 +28,7 @@ PlanRequest right_angle(const std::string& name) {
 PlanRequest large(const std::string& name) {
   PlanRequest request = right_angle(name);
   for (int i = 0; i < 20'000; ++i) {
-    request.path.segments.push_back({.end = {double(i), double(i % 2), 0}, .feed = 100, .tolerance = 0.01});
+    request.path.segments.push_back({.end = {10.0 * i, 10.0 * (i % 2), 0}, .feed = 100, .tolerance = 0.01});
   }
   return request;
 }

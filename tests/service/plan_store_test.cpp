@@ -13,7 +13,9 @@ namespace {
 PlanPointer plan(const std::string& name, std::size_t phases = 0) {
   auto made = std::make_shared<KeptPlan>();
   made->name = name;
-  made->plan.trajectory.phases.resize(phases);
+  for (std::size_t i = 0; i < phases; ++i) {
+    made->plan.trajectory.append({.start_time = static_cast<double>(i), .duration = 1});
+  }
   return made;
 }
 
@@ -30,7 +32,7 @@ TEST(PlanStore, ForgetsThePlanThatWasNotUsedForLongest) {
 
 TEST(PlanStore, MakesRoomInBytes) {
   constexpr std::size_t kPhases = 1000;
-  PlanStore store(100, 5 * kPhases * sizeof(motion::Phase) / 2);
+  PlanStore store(100, 5 * plan("a", kPhases)->plan.trajectory.bytes() / 2);
   store.keep(plan("a", kPhases));
   store.keep(plan("b", kPhases));
   EXPECT_NE(store.find("a"), nullptr);
@@ -43,6 +45,16 @@ TEST(PlanStore, MakesRoomInBytes) {
   EXPECT_NE(store.find("d"), nullptr);
   EXPECT_THROW(store.keep(plan("e", 3 * kPhases)), CapExceeded);
   EXPECT_NE(store.find("d"), nullptr);
+}
+
+TEST(PlanStore, CountsTheCornersToo) {
+  constexpr std::size_t kCorners = 1000;
+  PlanStore store(100, kCorners * sizeof(planning::Corner));
+  auto large = std::make_shared<KeptPlan>();
+  large->name = "a";
+  large->plan.corners.resize(kCorners);
+  EXPECT_THROW(store.keep(large), CapExceeded);
+  EXPECT_EQ(store.find("a"), nullptr);
 }
 
 TEST(PlanStore, KeepsAPlanAliveForItsReaders) {

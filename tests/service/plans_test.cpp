@@ -37,7 +37,9 @@ TEST_F(Plans, PathOfPointsInTwoAxesIsPlanned) {
   EXPECT_DOUBLE_EQ(summary.path_length_mm(), 20);
   EXPECT_EQ(summary.segment_count(), 2U);
   EXPECT_EQ(summary.corner_count(), 1U);
-  EXPECT_EQ(summary.interrupted_count() + summary.uninterrupted_count() + summary.exact_stop_count(), 1U);
+  EXPECT_EQ(summary.interrupted_count() + summary.uninterrupted_count() + summary.blended_count() +
+                summary.overlapping_count() + summary.exact_stop_count(),
+            1U);
   EXPECT_GT(summary.phase_count(), 0U);
   EXPECT_EQ(summary.max_velocity_mm_s_size(), 2);
   EXPECT_EQ(summary.max_acceleration_mm_s2_size(), 2);

@@ -90,6 +90,15 @@ TEST_F(Refusals, NumbersThatTheEnumsDoNotKnow) {
                   [](auto& options) { options.set_tolerance_kind(static_cast<v1::ToleranceKind>(-1)); });
 }
 
+TEST_F(Refusals, StrategyThatIsOnlyReported) {
+  v1::PlanOptions bad = options();
+  bad.set_strategy(v1::CORNER_STRATEGY_OVERLAPPING);
+  const grpc::Status status = create({request(bad), request(right_angle())});
+  EXPECT_TRUE(refuses_field(status, "options.strategy"));
+  ASSERT_EQ(violations(status).size(), 1U);
+  EXPECT_NE(violations(status)[0].find("ask for AUTO"), std::string::npos) << violations(status)[0];
+}
+
 TEST_F(Refusals, EverythingThatIsWrongAtOnce) {
   v1::PlanOptions bad = options();
   bad.mutable_machine()->set_jerk_mm_s3(0, -1);

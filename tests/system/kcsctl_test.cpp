@@ -98,6 +98,14 @@ TEST_F(Kcsctl, PlanPrintsATable) {
   EXPECT_NE(result.output.find("Cycle time"), std::string::npos) << result.output;
 }
 
+TEST_F(Kcsctl, StrategyAskedForIsTheOneThatIsTaken) {
+  const Result result = run({"plan", program(), "--strategy", "blended"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("\n  blended "), std::string::npos) << result.output;
+  const json corners = json::parse(run({"corners", "--json", program(), "--strategy", "blended"}).output);
+  EXPECT_EQ(corners[0]["strategy"], "blended");
+}
+
 TEST_F(Kcsctl, CornersPrintsOneObjectForEachCorner) {
   const json plan = json::parse(run({"plan", "--json", program()}).output);
   const json corners = json::parse(run({"corners", "--json", program()}).output);
@@ -139,7 +147,7 @@ TEST_F(Kcsctl, TwoAxisMachinesHaveNoZ) {
 
 TEST_F(Kcsctl, AFailureLeavesTheOldFileAlone) {
   std::ofstream(path("out.csv")) << "old";
-  std::ofstream(path("bad.ngc")) << "G1 X1 F100\nG1 X#5\n";
+  std::ofstream(path("bad.ngc")) << "G1 X1 F100\nG1 X#<x>\n";
   const Result result = run({"stream", path("bad.ngc"), "-o", path("out.csv")});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(read(path("out.csv")), "old");
@@ -170,7 +178,7 @@ TEST_F(Kcsctl, AnInterruptedStreamLeavesNothingBehindAndIsOverForTheServer) {
 }
 
 TEST_F(Kcsctl, FaultsOfTheProgramNameFileLineAndColumn) {
-  std::ofstream(path("bad.ngc")) << "G1 X1 F100\nG1 X#5\n";
+  std::ofstream(path("bad.ngc")) << "G1 X1 F100\nG1 X#<x>\n";
   const Result result = run({"plan", path("bad.ngc")});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.errors.rfind(path("bad.ngc") + ":2:", 0), 0) << result.errors;

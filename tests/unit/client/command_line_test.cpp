@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "client/cli/options.h"
@@ -62,6 +63,18 @@ TEST(CommandLine, NamesOfChoicesMayBeInCapitals) {
   EXPECT_EQ(options.plan.tolerance_kind, client::ToleranceKind::kCornerDistance);
 }
 
+TEST(CommandLine, EveryStrategyThatMayBeAskedForHasAName) {
+  for (const auto& [name, strategy] : {std::pair{"auto", client::CornerStrategy::kAuto},
+                                       {"interrupted", client::CornerStrategy::kInterrupted},
+                                       {"uninterrupted", client::CornerStrategy::kUninterrupted},
+                                       {"blended", client::CornerStrategy::kBlended},
+                                       {"exact-stop", client::CornerStrategy::kExactStop}}) {
+    const auto [options, message] = parse({"plan", "part.ngc", "--strategy", name});
+    ASSERT_FALSE(message.has_value()) << message->text;
+    EXPECT_EQ(options.plan.strategy, strategy) << name;
+  }
+}
+
 TEST(CommandLine, WrongOnesAreRefused) {
   for (const std::vector<const char*>& arguments :
        std::vector<std::vector<const char*>>{{},
@@ -69,6 +82,7 @@ TEST(CommandLine, WrongOnesAreRefused) {
                                              {"dance", "part.ngc"},
                                              {"plan", "part.ngc", "--tolerance", "much"},
                                              {"plan", "part.ngc", "--strategy", "fast"},
+                                             {"plan", "part.ngc", "--strategy", "overlapping"},
                                              {"plan", "part.ngc", "--nonsense"},
                                              {"stream", "part.ngc"},
                                              {"stream", "part.ngc", "-o", "x.csv", "--channels", "colour"}}) {

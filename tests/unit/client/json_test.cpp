@@ -16,6 +16,8 @@ TEST(Json, PlanCarriesTheSummaryUnderTheNamesOfTheContract) {
   plan.options.strategy = client::CornerStrategy::kExactStop;
   plan.summary.cycle_time_s = 12.5;
   plan.summary.segment_count = 7;
+  plan.summary.blended_count = 4;
+  plan.summary.overlapping_count = 2;
   plan.summary.max_jerk_mm_s3 = {1e5, 2e5};
   plan.notices = {{3, "M7 has no effect", 2}};
 
@@ -28,6 +30,8 @@ TEST(Json, PlanCarriesTheSummaryUnderTheNamesOfTheContract) {
   EXPECT_EQ(object["name"], "plans/ab");
   EXPECT_EQ(object["cycle_time_s"], 12.5);
   EXPECT_EQ(object["segment_count"], 7);
+  EXPECT_EQ(object["blended_count"], 4);
+  EXPECT_EQ(object["overlapping_count"], 2);
   EXPECT_EQ(object["max_jerk_mm_s3"], json({1e5, 2e5}));
   EXPECT_EQ(object["options"]["strategy"], "exact-stop");
   EXPECT_EQ(object["notices"][0]["line"], 3);
@@ -47,12 +51,15 @@ TEST(Json, CornersAreAnArrayOfObjects) {
   corner.angle_deg = 90;
   corner.strategy = client::CornerStrategy::kUninterrupted;
   corner.speed_mm_s = 46.058;
-  const json array = json::parse(corners_json({corner, corner}));
+  client::Corner other = corner;
+  other.strategy = client::CornerStrategy::kOverlapping;
+  const json array = json::parse(corners_json({corner, other}));
   ASSERT_EQ(array.size(), 2);
   EXPECT_EQ(array[0]["segment"], 4);
   EXPECT_EQ(array[0]["line"], 12);
   EXPECT_EQ(array[0]["angle_deg"], 90.0);
   EXPECT_EQ(array[0]["strategy"], "uninterrupted");
+  EXPECT_EQ(array[1]["strategy"], "overlapping");
   EXPECT_EQ(array[0]["speed_mm_s"], 46.058);
   for (const char* key : {"boundary_acceleration_mm_s2", "duration_s", "deviation_mm", "time_lost_s"}) {
     EXPECT_TRUE(array[1].contains(key)) << key;

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <sstream>
 #include <stop_token>
@@ -61,10 +62,52 @@ TEST_F(PlannerTest, PlansPoints) {
   EXPECT_EQ(corners[0].point_mm, (std::vector<double>{10, 0}));
 }
 
+TEST_F(PlannerTest, StrategiesArriveThereAndComeBack) {
+  PlanOptions asked = options();
+  asked.tolerance_kind = ToleranceKind::kCornerDistance;
+  for (const CornerStrategy strategy : {CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted,
+                                        CornerStrategy::kBlended, CornerStrategy::kExactStop}) {
+    asked.strategy = strategy;
+    const Plan plan = planner_.plan_points({.points_mm = {0, 0, 10, 0, 10, 10}}, asked);
+    EXPECT_EQ(plan.options.strategy, strategy);
+    EXPECT_EQ(planner_.corners(plan.name).at(0).strategy, strategy);
+    const Summary& summary = plan.summary;
+    EXPECT_EQ(summary.interrupted_count, strategy == CornerStrategy::kInterrupted);
+    EXPECT_EQ(summary.uninterrupted_count, strategy == CornerStrategy::kUninterrupted);
+    EXPECT_EQ(summary.blended_count, strategy == CornerStrategy::kBlended);
+    EXPECT_EQ(summary.exact_stop_count, strategy == CornerStrategy::kExactStop);
+  }
+}
+
+TEST_F(PlannerTest, CornersNearToEachOtherAreReportedAsOverlapping) {
+  PointPath path;  // a parabola in chords of a tenth of a millimetre
+  for (int i = -50; i <= 50; ++i) path.points_mm.insert(path.points_mm.end(), {i * 0.1, i * i * 0.0005});
+  const Plan plan = planner_.plan_points(path, options());
+  EXPECT_EQ(plan.options.strategy, CornerStrategy::kAuto);
+  const std::vector<Corner> corners = planner_.corners(plan.name);
+  const auto overlapping = std::count_if(corners.begin(), corners.end(), [](const Corner& corner) {
+    return corner.strategy == CornerStrategy::kOverlapping;
+  });
+  EXPECT_GT(overlapping, 0);
+  EXPECT_EQ(plan.summary.overlapping_count, overlapping);
+}
+
+TEST_F(PlannerTest, OverlappingCannotBeAskedFor) {
+  PlanOptions bad = options();
+  bad.strategy = CornerStrategy::kOverlapping;
+  try {
+    planner_.plan_points({.points_mm = {0, 0, 10, 0}}, bad);
+    FAIL();
+  } catch (const Error& error) {
+    ASSERT_EQ(error.violations().size(), 1);
+    EXPECT_EQ(error.violations()[0].field, "options.strategy");
+  }
+}
+
 TEST_F(PlannerTest, PathsOfManyMessagesKeepWhatBelongsToTheirPoints) {
   PointPath path;
   for (int i = 0; i < 20'000; ++i) {
-    path.points_mm.insert(path.points_mm.end(), {i * 1.0, i % 2 * 1.0});
+    path.points_mm.insert(path.points_mm.end(), {i * 10.0, i % 2 * 10.0});
     path.line.push_back(static_cast<std::uint32_t>(i + 1));
   }
   path.stops = {{.point = 10'000, .dwell_s = 2}};
@@ -176,7 +219,7 @@ TEST_F(PlannerTest, AStopEndsAStreamFromAnotherThread) {
 
 TEST_F(PlannerTest, AStopEndsAPlanningFromAnotherThread) {
   PointPath path;  // takes seconds to plan
-  for (int i = 0; i < 100'000; ++i) path.points_mm.insert(path.points_mm.end(), {i * 1.0, i % 2 * 1.0});
+  for (int i = 0; i < 100'000; ++i) path.points_mm.insert(path.points_mm.end(), {i * 10.0, i % 2 * 10.0});
   std::stop_source stop;
   std::jthread stopper([&stop] {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "client/cli/corners_table.h"
 #include "client/cli/numbers.h"
@@ -84,6 +85,32 @@ TEST(PlanTable, ShowsTheFiguresAndFitsEightyColumns) {
   for (const char* piece : {"1:02:03   (3723.400 s)", "44,304 segments", "200.0 / 200", "20000 / 20000", "4711",
                             "-1234.567", " 0.123\n", "line 12", "(×3)", "tolerance 0.01 mm (contour)"}) {
     EXPECT_NE(table.find(piece), std::string::npos) << piece << "\n" << table;
+  }
+}
+
+TEST(PlanTable, CountsTheStrategiesThatOccur) {
+  client::Plan plan;
+  plan.summary.corner_count = 1'000'630;
+  plan.summary.blended_count = 1'000'000;
+  plan.summary.overlapping_count = 627;
+  plan.summary.exact_stop_count = 3;
+  const std::string table = plan_table("part.ngc", plan, {});
+  EXPECT_NE(table.find("Corners             1,000,630\n"
+                       "  blended           1,000,000\n"
+                       "  overlapping       627\n"
+                       "  exact stops       3\n"
+                       "Lost at corners"),
+            std::string::npos)
+      << table;
+}
+
+TEST(CornersTable, NamesTheStrategyOfEachCorner) {
+  for (const auto& [strategy, name] : {std::pair{client::CornerStrategy::kInterrupted, " interrupted "},
+                                       {client::CornerStrategy::kUninterrupted, " uninterrupted "},
+                                       {client::CornerStrategy::kExactStop, " exact-stop "},
+                                       {client::CornerStrategy::kBlended, " blended "},
+                                       {client::CornerStrategy::kOverlapping, " overlapping "}}) {
+    EXPECT_NE(corners_table({{.strategy = strategy}}).find(name), std::string::npos) << name;
   }
 }
 

@@ -3,52 +3,112 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
+#include <span>
+#include <vector>
+
+#include "server/motion/mitres.h"
 
 namespace kcs::motion {
 namespace {
 
-TEST(DistanceToSegment, IsToTheNearestPointOfTheSegment) {
-  const Vector from(0, 0, 0), to(10, 0, 0);
-  EXPECT_DOUBLE_EQ(distance_to_segment({5, 3, 0}, from, to), 3);
-  EXPECT_DOUBLE_EQ(distance_to_segment({-3, 4, 0}, from, to), 5);
-  EXPECT_DOUBLE_EQ(distance_to_segment({13, 0, 4}, from, to), 5);
-  EXPECT_DOUBLE_EQ(distance_to_segment({1, 1, 0}, from, from), std::sqrt(2));
+std::vector<Piece> pieces_through(const std::vector<Vector>& points) {
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    pieces.emplace_back(points[i], PathSegment{.end = points[i + 1]}, static_cast<std::uint32_t>(i));
+  }
+  return pieces;
 }
 
-std::array<Piece, 2> pieces_through(const Vector& a, const Vector& b, const Vector& c) {
-  return {Piece{.from = a, .to = b}, Piece{.from = b, .to = c}};
+double distance(const Vector& point, std::span<const Piece> pieces) {
+  double nearest = INFINITY;
+  for (const Piece& piece : pieces) nearest = std::min(nearest, piece.line.square_distance(point));
+  return std::sqrt(nearest);
 }
+
+double sampled_contour_error(const Phase& phase, std::span<const Piece> pieces) {
+  double largest = 0;
+  for (int k = 0; k <= 4'000; ++k) {
+    largest = std::max(largest, distance(phase.at(phase.duration * k / 4'000).position, pieces));
+  }
+  return largest;
+}
+
+// Numbers between −1 and 1.
+class Random {
+ public:
+  double operator()() { return share_(generator_); }
+  Vector vector() { return {(*this)(), (*this)(), (*this)()}; }
+
+ private:
+  std::mt19937_64 generator_{5};
+  std::uniform_real_distribution<double> share_{-1, 1};
+};
 
 TEST(LargestContourError, MeasuresARoundedCornerFromAbove) {
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> share(-1, 1);
+  Random random;
   for (int i = 0; i < 2'000; ++i) {
-    const auto pieces =
-        pieces_through({-10, 0, 0}, {0, 0, 0}, {10 * share(random), 10 * share(random), 10 * share(random)});
-    Phase phase{.duration = 1, .jerk = Vector(share(random), share(random), share(random))};
+    const auto pieces = pieces_through({{-10, 0, 0}, {0, 0, 0}, 10 * random.vector()});
+    Phase phase{.duration = 1, .jerk = random.vector()};
     phase.start.position = Vector(-1, 0, 0);
-    phase.start.velocity = Vector(1, share(random), share(random));
-    double sampled = 0;
-    for (int k = 0; k <= 4'000; ++k) {
-      const Vector point = phase.at(k / 4'000.0).position;
-      sampled = std::max(sampled, std::min(distance_to_segment(point, pieces[0].from, pieces[0].to),
-                                           distance_to_segment(point, pieces[1].from, pieces[1].to)));
-    }
-    const double found = largest_contour_error(phase, pieces, 1e-9, 0);
+    phase.start.velocity = Vector(1, random(), random());
+    const double sampled = sampled_contour_error(phase, pieces), found = largest_contour_error(phase, pieces, 1e-9, 0);
     EXPECT_GE(found, sampled - 1e-15);
     EXPECT_LE(found, sampled + 1e-3);
     EXPECT_NEAR(found, largest_contour_error(phase, pieces, 1e-7, 0), 1.1e-7);
   }
 }
 
+TEST(LargestContourError, MeasuresAcrossManyPiecesInAnyOrderFromAbove) {
+  Random random;
+  for (int i = 0; i < 2'000; ++i) {
+    std::vector<Vector> points{{0, 0, 0}};
+    while (points.size() < 8) points.push_back(points.back() + random.vector());
+    const auto pieces = pieces_through(points);
+    const Phase phase{
+        .duration = 2, .start = {random.vector(), 2 * random.vector(), 2 * random.vector()}, .jerk = random.vector()};
+    const double sampled = sampled_contour_error(phase, pieces), found = largest_contour_error(phase, pieces, 1e-9, 0);
+    EXPECT_GE(found, sampled - 1e-15);
+    EXPECT_LE(found, sampled + 1e-2);
+    // Where the curve is divided changes nothing.
+    EXPECT_NEAR(found, largest_contour_error(phase, pieces, std::vector<double>(pieces.size() - 1, 0), 1e-9, 0), 1e-9);
+  }
+}
+
 TEST(LargestContourError, IsNothingAcrossTheBordersOfPiecesOnALine) {
-  const auto pieces = pieces_through({0, 0, 0}, Vector(1, 1, 1) / 3, {1e4, 1e4, 1e4});
+  const auto pieces = pieces_through({{0, 0, 0}, Vector(1, 1, 1) / 3, {1e4, 1e4, 1e4}});
   Phase phase{.duration = 1e4};
   phase.start.velocity = Vector(1, 1, 1);
   EXPECT_LE(largest_contour_error(phase, pieces, 1e-12, 0), 1e-11);
+}
+
+TEST(ComesWithin, KnowsTheNearestPlaceOfALine) {
+  Phase phase{.duration = 3};
+  phase.start.position = Vector(-1, 2, 0);
+  phase.start.velocity = Vector(1, 0, 0);
+  const Curve curve = Curve::between(phase.start, phase.at(3), 3);
+  const auto nearest_is = [&](const Vector& point, double distance) {
+    EXPECT_TRUE(comes_within(curve, point, distance * (1 + 1e-9)));
+    EXPECT_FALSE(comes_within(curve, point, distance * (1 - 1e-9)));
+  };
+  nearest_is({0.123, 0, 0}, 2);
+  nearest_is({-4, -2, 0}, 5);
+  nearest_is({5, 2, 0}, 3);
+}
+
+TEST(ComesWithin, KnowsTheNearestPlaceOfACurve) {
+  Random random;
+  for (int i = 0; i < 2'000; ++i) {
+    const Phase phase{
+        .duration = 2, .start = {random.vector(), 2 * random.vector(), 2 * random.vector()}, .jerk = random.vector()};
+    const Curve curve = Curve::between(phase.start, phase.at(2), 2);
+    const Vector point = random.vector();
+    double sampled = INFINITY;
+    for (int k = 0; k <= 4'000; ++k) sampled = std::min(sampled, (phase.at(k / 2'000.0).position - point).norm());
+    EXPECT_TRUE(comes_within(curve, point, sampled * (1 + 1e-9)));
+    EXPECT_FALSE(comes_within(curve, point, sampled - 1e-2));
+  }
 }
 
 TEST(ClosestApproach, FindsTheNearestPlaceOfACurve) {
@@ -60,21 +120,17 @@ TEST(ClosestApproach, FindsTheNearestPlaceOfACurve) {
   EXPECT_NEAR(closest_approach(phase, {5, 2, 0}), 3, 1e-9);
 }
 
-TEST(Course, JoinsWhatIsOnALineAndAgrees) {
-  const std::array<Vector, 5> points{Vector(0, 0, 0), Vector(1, 0, 0), Vector(2, 0, 0), Vector(3, 0, 0),
-                                     Vector(3, 1, 0)};
-  const std::array<double, 4> feed{10, 10, 20, 20}, tolerance{}, reach{}, rest{-1, -1, -1, -1};
-  const Course course({points, feed, tolerance, reach, rest});
-  ASSERT_EQ(course.pieces().size(), 3u);
-  EXPECT_EQ(course.pieces()[0].to, points[2]);
-  EXPECT_EQ(course.pieces_of({1, 3}).first, 0u);
-  EXPECT_EQ(course.pieces_of({1, 3}).last, 2u);
-}
-
-TEST(Course, BreaksWhereTheToolRests) {
-  const std::array<Vector, 3> points{Vector(0, 0, 0), Vector(1, 0, 0), Vector(2, 0, 0)};
-  const std::array<double, 2> feed{10, 10}, tolerance{}, reach{}, rest{0, -1};
-  EXPECT_EQ(Course({points, feed, tolerance, reach, rest}).pieces().size(), 2u);
+TEST(Mitres, ArePassedInTheMiddleOfASymmetricCorner) {
+  const auto pieces = pieces_through({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0}});
+  Phase phase{.duration = 1, .jerk = Vector::Zero()};
+  phase.start = {Vector(0.5, 0, 0), Vector(1, 0, 0), Vector(-1, 1, 0)};
+  std::vector<double> times;
+  pass_mitres(phase, pieces, times);
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_NEAR((phase.at(times[0]).position - Vector(1, 0, 0)).dot(Vector(1, 1, 0)), 0, 1e-15);
+  EXPECT_EQ(times[1], 1);
+  pass_mitres(phase, std::span(pieces).last(2), times);
+  EXPECT_EQ(times, std::vector<double>{1});
 }
 
 }  // namespace

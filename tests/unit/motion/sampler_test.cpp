@@ -12,7 +12,11 @@ Trajectory two_speeds() {
   Phase second{.start_time = 1, .duration = 2};
   second.start.position.x() = 1;
   second.start.velocity.x() = 0.5;
-  return {{first, second}, Vector(2, 0, 0)};
+  Trajectory trajectory;
+  trajectory.append(first);
+  trajectory.append(second);
+  trajectory.set_final_state({.position = Vector(2, 0, 0)});
+  return trajectory;
 }
 
 TEST(Sampler, EndsOnTheFirstPeriodThatIsNotBeforeTheEnd) {
@@ -43,9 +47,9 @@ TEST(Sampler, EndsAtRestOnTheExactEnd) {
 TEST(Sampler, GivesTheSameSetpointWhateverWasAskedBefore) {
   Trajectory trajectory;
   for (int i = 0; i < 1000; ++i) {
-    Phase phase{.start_time = i * 0.01, .duration = 0.01};
+    Phase phase{.start_time = trajectory.duration(), .duration = 0.01};
     phase.start.position.y() = i * i;
-    trajectory.phases.push_back(phase);
+    trajectory.append(phase);
   }
   Sampler forward(trajectory, 0.003), jumping(trajectory, 0.003);
   std::vector<Vector> expected;
@@ -58,7 +62,8 @@ TEST(Sampler, GivesTheSameSetpointWhateverWasAskedBefore) {
 }
 
 TEST(Sampler, HasOneSetpointForNoMotion) {
-  const Trajectory trajectory{{}, Vector(1, 2, 3)};
+  Trajectory trajectory;
+  trajectory.set_final_state({.position = Vector(1, 2, 3)});
   Sampler sampler(trajectory, 0.001);
   EXPECT_EQ(sampler.count(), 1u);
   EXPECT_EQ(sampler.at(0).state.position, Vector(1, 2, 3));

@@ -78,7 +78,8 @@ TEST_P(Families, BeginAndEndOnTheLegsAsTheySay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Corners, Families,
-                         testing::Combine(testing::Values(CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted),
+                         testing::Combine(testing::Values(CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted,
+                                                          CornerStrategy::kBlended),
                                           testing::Values(1e-3, 1., 10., 45., 90., 135., 170., 179.999, 180.)));
 
 TEST(Cornering, StopsWithoutATolerance) {
@@ -88,16 +89,18 @@ TEST(Cornering, StopsWithoutATolerance) {
   EXPECT_EQ(choose_cornering(corner, options.strategy, options.limits).max_speed(), 0);
 }
 
-TEST(Cornering, PrefersInterruptedForObtuseAndUninterruptedForAcuteCorners) {
-  const auto chosen = [](double degrees) {
+TEST(Cornering, BlendsExceptWhereThePapersCornersAreFaster) {
+  const auto chosen = [](double degrees, double tolerance) {
     const PlanOptions options = options_for(2500, 2e5, ToleranceKind::kCornerDistance, CornerStrategy::kAuto);
-    const LegPath legs = legs_of(two_legs(degrees, 0.02), options.limits);
+    const LegPath legs = legs_of(two_legs(degrees, tolerance), options.limits);
     const CornerGeometry corner = corner_geometry(legs.legs[0], legs.legs[1], options);
     return choose_cornering(corner, options.strategy, options.limits).strategy();
   };
-  EXPECT_EQ(chosen(10), CornerStrategy::kInterrupted);
-  EXPECT_EQ(chosen(90), CornerStrategy::kUninterrupted);
-  EXPECT_EQ(chosen(150), CornerStrategy::kUninterrupted);
+  EXPECT_EQ(chosen(10, 0.1), CornerStrategy::kInterrupted);  // at the feed
+  EXPECT_EQ(chosen(10, 0.001), CornerStrategy::kBlended);
+  EXPECT_EQ(chosen(90, 0.02), CornerStrategy::kBlended);
+  EXPECT_EQ(chosen(120, 0.01), CornerStrategy::kUninterrupted);
+  EXPECT_EQ(chosen(180, 0.02), CornerStrategy::kUninterrupted);
 }
 
 TEST(Cornering, SmoothsWhatAnAxisWouldNoticeHoweverSlightItIs) {

@@ -1,0 +1,37 @@
+// Points at equal steps of time that are near to given ones and change their motion little.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "server/motion/phase.h"
+
+namespace kcs::planning {
+
+using motion::Vector;
+
+// How much each point of a fit is held, ≥ 0; one entry per point.
+struct FitWeights {
+  std::vector<double> place;         // of its distance from its datum
+  std::vector<double> acceleration;  // of the second difference that begins at it; the last two are not used
+  std::vector<double> jerk;          // of the third difference that begins at it; the last three are not used
+};
+
+// Finds the points r that minimise Σ place_i |r_i − data_i|² + Σ acceleration_i |r_{i+2} − 2 r_{i+1} + r_i|²
+// + Σ jerk_i |r_{i+3} − 3 r_{i+2} + 3 r_{i+1} − r_i|²: a linear system with three bands beside its diagonal, solved by
+// LDLᵀ in time and memory linear in the number of points. Keeps its memory from one fit to the next.
+class PenalizedFit {
+ public:
+  // As many weights as data; at least three places are more than 0. Overwrites result, which may not be data.
+  void solve(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result);
+
+ private:
+  void assemble(const FitWeights& weights);
+  void factorize();
+
+  // Row i: its diagonal (once factorized, its inverse), then its entries 1, 2 and 3 before the diagonal.
+  std::vector<std::array<double, 4>> factor_;
+};
+
+}  // namespace kcs::planning

@@ -1,0 +1,96 @@
+// One smooth motion through many corners at once, whose transitions overlap.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "server/motion/limits.h"
+#include "server/motion/verifier.h"
+#include "server/planning/motion_shares.h"
+#include "server/planning/penalized_fit.h"
+#include "server/planning/stretch_path.h"
+#include "server/planning/time_spline.h"
+
+namespace kcs::planning {
+
+// Speeds at two ends, mm/s; 0: rest.
+struct EndSpeeds {
+  double entry = 0;
+  double exit = 0;
+};
+
+// Which part of a stretch a motion covers, and how it begins and ends.
+struct MotionRange {
+  double from = 0, to = 0;  // ways, mm
+  EndSpeeds at_most;        // the greatest speeds there; what begins or ends at rest does so exactly
+  // The motion goes on from the last three points of this one, if there is one, whatever `from` and at_most.entry are.
+  const TimeSpline* before = nullptr;
+};
+
+// Ways at equal times, with how much each point is held: what a search begins with.
+struct MotionDraft {
+  std::vector<double> ways;
+  FitWeights weights;
+};
+
+// The step of time that suits these limits and the tolerance (mm), s: a fraction of the time in which an axis reaches
+// its acceleration, and of the time that a corner takes.
+double step_of_time(double tolerance, const motion::AxisLimits& limits);
+
+// Finds a motion that is near to the fastest, as a spline of time. It starts from a draft and changes time and place in
+// turns: the points of the spline are drawn to the path only where they are too far away from it, else they avoid
+// jerk; time is stretched where an axis is beyond a limit and shortened where none is near to one. What presses on a
+// limit or on the tolerance again and again gets more and more weight.
+// The idea is that of overlapping transitions: a spline of time is a sum of equal pulses of velocity, and so what the
+// axes do is the sum of what all corners near by ask for.
+// Linear in the duration of the motion. Deterministic.
+class SmoothMotion {
+ public:
+  // `path` and `limits` must outlive the motion. step: s, see step_of_time.
+  SmoothMotion(const StretchPath& path, const motion::AxisLimits& limits, double step);
+
+  // Looks for a motion inside all limits and the tolerance, judged by the means of the verifier. False if none was
+  // found within a bounded number of rounds.
+  bool search(const MotionRange& range, MotionDraft draft);
+
+  // What was found. Its step is a little longer than what was asked for if that was what it took.
+  const TimeSpline& spline() const { return spline_; }
+  EndSpeeds speeds() const { return speeds_; }
+  double step() const { return step_; }  // s, as asked for
+  // How much the search took, in rounds times points.
+  double work() const { return work_; }
+  // The weights that it has come to.
+  const FitWeights& weights() const { return weights_; }
+
+ private:
+  void hold_ends();
+  void fit();
+  bool accept();
+  void slow_down_evenly();
+  void reweigh();
+  void retime();
+  void set_paces();
+  void resample_ways(std::size_t count, double scale);
+  void resample_weights();
+
+  const StretchPath& path_;
+  const motion::AxisLimits& limits_;
+  double step_;
+  MotionRange range_;
+  EndSpeeds speeds_;
+  TimeSpline spline_;
+  FitWeights weights_;
+  PenalizedFit fit_;
+  MotionShares shares_;
+  double work_ = 0;
+  bool finishing_ = false, urgent_ = false;
+  // Scratch, kept from round to round.
+  std::vector<std::size_t> legs_{0};    // of the ways
+  std::vector<Vector> data_;            // on the path
+  std::vector<double> drawn_to_;        // the ways of data_
+  std::vector<double> wishes_, paces_;  // of each step: how much longer it should take
+  std::vector<double> old_ways_, old_times_;
+  FitWeights old_weights_;
+};
+
+}  // namespace kcs::planning

@@ -1,0 +1,156 @@
+#include "server/planning/stretch_corners.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "server/motion/contour.h"
+#include "server/planning/corner_geometry.h"
+
+namespace kcs::planning {
+namespace {
+
+// A stretch stays a little below the feed; from this share on it is at the feed.
+constexpr double kAtFeed = 0.99;
+
+// Samples of a piece, and halvings of the time around the best one.
+constexpr int kSamples = 4, kHalvings = 30;
+
+// Follows a spline of time along its path.
+class Walk {
+ public:
+  explicit Walk(const TimeSpline& spline) : spline_(spline) {}
+
+  // When the motion is at this way; ways must not fall from call to call.
+  double time_at(double way) {
+    const auto knot_way = [&](std::size_t knot) { return spline_.ways[knot + 1]; };
+    while (piece_ + 1 < spline_.pieces() && knot_way(piece_ + 1) < way) ++piece_;
+    const double from = knot_way(piece_), to = knot_way(piece_ + 1);
+    const double share = to > from ? std::clamp((way - from) / (to - from), 0.0, 1.0) : 0;
+    return spline_.step * (static_cast<double>(piece_) + share);
+  }
+
+ private:
+  const TimeSpline& spline_;
+  std::size_t piece_ = 0;
+};
+
+// The state in which the motion is nearest to a point.
+motion::State nearest_in(const motion::Phase& phase, const Vector& point) {
+  const auto distance = [&](double time) { return (phase.at(time).position - point).squaredNorm(); };
+  double step = phase.duration / kSamples, best = 0;
+  for (int i = 1; i <= kSamples; ++i) {
+    if (distance(step * i) < distance(best)) best = step * i;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    step /= 2;
+    for (const double time : {best - step, best + step}) {
+      if (time >= 0 && time <= phase.duration && distance(time) < distance(best)) best = time;
+    }
+  }
+  return phase.at(best);
+}
+
+struct Nearest {
+  motion::State state;
+  double contour_error = 0;  // mm
+};
+
+// Looks at the pieces that pass from one leg to another. Legs must not fall from call to call.
+class Passing {
+ public:
+  explicit Passing(const Stretch& stretch) : stretch_(stretch) {}
+
+  // Where the motion is nearest to the end of a leg.
+  Nearest to_end_of(std::size_t leg) {
+    const TimeSpline& spline = stretch_.spline();
+    const Vector& point = stretch_.path().corners()[leg + 1];
+    while (first_ + 1 < spline.pieces() && legs_of(first_).second <= leg) ++first_;
+    Nearest best;
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t nearest = first_;
+    for (std::size_t j = first_; j < spline.pieces() && legs_of(j).first <= leg; ++j) {
+      const double distance =
+          std::min((spline.knot(j) - point).squaredNorm(), (spline.knot(j + 1) - point).squaredNorm());
+      if (distance >= least) continue;
+      least = distance;
+      nearest = j;
+    }
+    least = std::numeric_limits<double>::infinity();
+    // A knot may be the nearest of all, but a place in the piece on either side of it nearer still.
+    for (std::size_t j = std::max(first_, nearest > 0 ? nearest - 1 : 0); j <= nearest + 1 && j < spline.pieces();
+         ++j) {
+      if (legs_of(j).first > leg) break;
+      const motion::State state = nearest_in(spline.phase(j, Vector::Zero()), point);
+      const double distance = (state.position - point).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      best = {state, error(state.position, j)};
+    }
+    return best;
+  }
+
+ private:
+  // From the legs that the piece follows, mm.
+  double error(const Vector& position, std::size_t piece) const {
+    const auto& corners = stretch_.path().corners();
+    const auto [first, last] = legs_of(piece);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t leg = first; leg <= last; ++leg) {
+      least = std::min(least, motion::distance_to_segment(position, corners[leg], corners[leg + 1]));
+    }
+    return least;
+  }
+
+  std::pair<std::size_t, std::size_t> legs_of(std::size_t piece) const {
+    const auto& ways = stretch_.spline().ways;
+    return stretch_.path().legs_between(ways[piece], ways[piece + 3]);
+  }
+
+  const Stretch& stretch_;
+  std::size_t first_ = 0;  // piece
+};
+
+double time_at_feed(const Stretch& stretch) {
+  const TimeSpline& spline = stretch.spline();
+  double time = 0;
+  for (std::size_t j = 0; j < spline.pieces(); ++j) {
+    const double feed = stretch.path().feed_between(spline.ways[j], spline.ways[j + 3]);
+    if (spline.velocity(j + 1).norm() >= kAtFeed * feed) time += spline.step;
+  }
+  return time;
+}
+
+}  // namespace
+
+StretchTimes add_corners(const Stretch& stretch, const std::vector<Joint>& joints, std::size_t first_leg,
+                         const PlanOptions& options, std::vector<Corner>& corners) {
+  const StretchPath& path = stretch.path();
+  const auto legs = path.legs();
+  const auto middle = [&](std::size_t leg) { return (path.way(leg) + path.way(leg + 1)) / 2; };
+  const auto at_feed = [&](std::size_t leg) { return (path.way(leg + 1) - path.way(leg)) / legs[leg].feed; };
+  Walk walk(stretch.spline());
+  Passing passing(stretch);
+  double before = walk.time_at(middle(0));
+  StretchTimes result{.entry_lost = before - at_feed(0) / 2, .at_feed = time_at_feed(stretch)};
+  for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
+    const CornerGeometry geometry = corner_geometry(legs[i], legs[i + 1], options);
+    const Vector& point = path.corners()[i + 1];
+    const auto [at, contour_error] = passing.to_end_of(i);
+    const double after = walk.time_at(middle(i + 1));
+    corners.push_back({.segment = legs[i].segments.last,
+                       .line = joints[first_leg + i].line,
+                       .point = legs[i].end,
+                       .angle = geometry.angle,
+                       .strategy = CornerStrategy::kOverlapping,
+                       .speed = at.velocity.norm(),
+                       .corner_distance = (at.position - point).norm(),
+                       .contour_error = contour_error,
+                       .time_lost = after - before - at_feed(i) / 2 - at_feed(i + 1) / 2});
+    before = after;
+  }
+  result.exit_lost = stretch.spline().duration() - before - at_feed(legs.size() - 1) / 2;
+  return result;
+}
+
+}  // namespace kcs::planning

@@ -1,0 +1,93 @@
+#include "server/planning/stretch_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/planning/corner_geometry.h"
+
+namespace kcs::planning {
+namespace {
+
+// At a corner, the motion may be on the next leg this many tolerances before or after the place where the path is.
+constexpr double kAround = 6;
+
+// Another place may be nearer although the path leads away at first: it is looked for so many tolerances away.
+constexpr double kDetour = 3;
+
+}  // namespace
+
+StretchPath::StretchPath(const LegPath& path, const LegRange& range, const PlanOptions& options)
+    : legs_(std::span(path.legs).subspan(range.first, range.last - range.first + 1)),
+      ends_{0},
+      corners_{range.skipped * legs_.front().direction},
+      tolerance_(legs_.front().tolerance) {
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    ends_.push_back(ends_.back() + legs_[i].length - (i == 0 ? range.skipped : 0));
+    corners_.push_back(legs_[i].end - origin());
+    pieces_.emplace_back(legs_[i].start - origin(), motion::PathSegment{.end = legs_[i].end - origin()}, 0);
+    one_feed_ &= legs_[i].feed == legs_.front().feed;
+    tolerance_ = std::min(tolerance_, legs_[i].tolerance);
+    if (i + 1 < legs_.size()) reaches_.push_back(corner_geometry(legs_[i], legs_[i + 1], options).reach);
+  }
+  ends_.back() -= range.left;
+  corners_.back() -= range.left * legs_.back().direction;
+}
+
+std::size_t StretchPath::leg_at(double way, std::size_t near) const {
+  while (near > 0 && way < ends_[near]) --near;
+  while (near + 1 < legs_.size() && way > ends_[near + 1]) ++near;
+  return near;
+}
+
+double StretchPath::distance(const Vector& point, std::size_t leg, double& along) const {
+  const Vector from = point - corners_[leg];
+  along = std::clamp(from.dot(legs_[leg].direction), 0.0, ends_[leg + 1] - ends_[leg]);
+  return (from - along * legs_[leg].direction).squaredNorm();
+}
+
+Projection StretchPath::project(const Vector& point, std::size_t near) const {
+  double along = 0;
+  double least = distance(point, near, along);
+  Projection best{near, ends_[near] + along, 0};
+  // On and on while it comes nearer, and past small detours.
+  const auto look = [&](std::size_t leg) {
+    const double square = distance(point, leg, along);
+    const bool nearer = square <= least;
+    if (nearer) {
+      least = square;
+      best.leg = leg;
+      best.way = ends_[leg] + along;
+    }
+    return nearer;
+  };
+  const double detour = kDetour * tolerance_;
+  for (std::size_t leg = near; leg + 1 < legs_.size();) {
+    const bool nearer = look(++leg);
+    if (!nearer && ends_[leg + 1] > best.way + detour) break;
+  }
+  for (std::size_t leg = near; leg > 0;) {
+    const bool nearer = look(--leg);
+    if (!nearer && ends_[leg] < best.way - detour) break;
+  }
+  best.distance = std::sqrt(least);
+  return best;
+}
+
+std::pair<std::size_t, std::size_t> StretchPath::legs_between(double from, double to) const {
+  const auto leg_at = [&](double way) {
+    const auto after = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, way);
+    return static_cast<std::size_t>(after - ends_.begin()) - 1;
+  };
+  return {leg_at(from - kAround * tolerance_), leg_at(to + kAround * tolerance_)};
+}
+
+double StretchPath::feed_between(double from, double to) const {
+  double least = legs_.front().feed;
+  if (one_feed_) return least;
+  const auto [first, last] = legs_between(from, to);
+  least = legs_[first].feed;
+  for (std::size_t i = first + 1; i <= last; ++i) least = std::min(least, legs_[i].feed);
+  return least;
+}
+
+}  // namespace kcs::planning

@@ -1,0 +1,77 @@
+// The part of a path that a stretch replaces, by its arc length.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "server/motion/course.h"
+#include "server/planning/leg.h"
+#include "server/planning/options.h"
+
+namespace kcs::planning {
+
+// Legs that follow each other, without the beginning of the first and the end of the last one, perhaps.
+struct LegRange {
+  std::size_t first = 0, last = 0;
+  double skipped = 0;  // of the first leg, mm
+  double left = 0;     // of the last leg, mm
+};
+
+// A place on the path, and how far something is away from it.
+struct Projection {
+  std::size_t leg = 0;
+  double way = 0;       // mm
+  double distance = 0;  // mm
+};
+
+class StretchPath {
+ public:
+  // `path` must outlive this.
+  StretchPath(const LegPath& path, const LegRange& range, const PlanOptions& options);
+
+  std::span<const Leg> legs() const { return legs_; }
+  double length() const { return ends_.back(); }   // mm
+  double tolerance() const { return tolerance_; }  // the least one, mm
+
+  // The way from the start of the stretch to the start of a leg, mm; leg ≤ legs().size().
+  double way(std::size_t leg) const { return ends_[leg]; }
+
+  // How near the motion must come to the end of a leg that is not the last, mm.
+  double reach(std::size_t leg) const { return reaches_[leg]; }
+
+  // The point at a way on a leg; beyond the ends of the stretch it goes on straight. From origin().
+  Vector at(std::size_t leg, double way) const { return corners_[leg] + (way - ends_[leg]) * legs_[leg].direction; }
+
+  // The leg at a way; searches from a leg near it.
+  std::size_t leg_at(double way, std::size_t near) const;
+
+  // The place nearest to a point, from origin(), among those that are nearer and nearer from a leg on.
+  Projection project(const Vector& point, std::size_t near) const;
+
+  // The first and the last leg that a motion may follow between two ways, mm.
+  std::pair<std::size_t, std::size_t> legs_between(double from, double to) const;
+
+  // The least feed of the legs that a motion may follow between two ways, mm/s.
+  double feed_between(double from, double to) const;
+
+  // Its start, the corners inside it and its end, from origin(), mm.
+  const std::vector<Vector>& corners() const { return corners_; }
+  // Its legs, whole, from origin().
+  std::span<const motion::Piece> pieces() const { return pieces_; }
+  const Vector& origin() const { return legs_.front().start; }
+
+ private:
+  double distance(const Vector& point, std::size_t leg, double& along) const;
+
+  std::span<const Leg> legs_;
+  std::vector<double> ends_;  // from zero; entry i + 1 is where leg i ends
+  std::vector<Vector> corners_;
+  std::vector<double> reaches_;
+  std::vector<motion::Piece> pieces_;
+  double tolerance_;
+  bool one_feed_ = true;
+};
+
+}  // namespace kcs::planning

@@ -1,0 +1,152 @@
+#include "tests/property/judge.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace kcs::test {
+namespace {
+
+using motion::Phase;
+using motion::State;
+using motion::Vector;
+using planning::Plan;
+
+// No limit is exceeded by more than rounding.
+constexpr double kLimit = 1 + 1e-9;
+
+// The distance from a point to the nearest place of the whole path, not only of the segments that a phase names.
+double distance_to_path(const Vector& point, const planning::Toolpath& path) {
+  double nearest = INFINITY;
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    const Vector from = path.start_of(i), along = path.segments[i].end - from;
+    const double square = along.squaredNorm();
+    const double share = square > 0 ? std::clamp((point - from).dot(along) / square, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (point - from - share * along).norm());
+  }
+  return nearest;
+}
+
+// The segments of the case that count, as phases number them.
+std::vector<planning::Segment> moving_segments(const planning::Toolpath& path) {
+  std::vector<planning::Segment> result;
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    if ((path.segments[i].end - path.start_of(i)).norm() >= planning::kNoLength) result.push_back(path.segments[i]);
+  }
+  return result;
+}
+
+// By samples, and by halving the time around the best one.
+double nearest_in(const Phase& phase, const Vector& point) {
+  const auto distance = [&](double time) { return (phase.at(time).position - point).norm(); };
+  double step = phase.duration / 8, best = 0;
+  for (int i = 1; i <= 8; ++i) {
+    if (distance(step * i) < distance(best)) best = step * i;
+  }
+  for (; step > 1e-12 * phase.duration; step /= 2) {
+    for (const double time : {best - step / 2, best + step / 2}) {
+      if (time >= 0 && time <= phase.duration && distance(time) < distance(best)) best = time;
+    }
+  }
+  return distance(best);
+}
+
+class Judge {
+ public:
+  Judge(const Case& problem, const Plan& plan)
+      : problem_(problem), plan_(plan), segments_(moving_segments(problem.path)) {
+    for (const auto& segment : problem.path.segments) {
+      rounding_ = std::max(rounding_, 1e-15 * segment.end.cwiseAbs().maxCoeff());
+    }
+  }
+
+  void run() {
+    State at{.position = problem_.path.start};
+    double time = 0;
+    for (const Phase& phase : plan_.trajectory) {
+      ASSERT_GT(phase.duration, 0);
+      ASSERT_EQ(phase.start_time, time);
+      continuous(at, phase.start);
+      for (int i = 0; i <= 8; ++i) inside_limits(phase, phase.at(phase.duration * i / 8));
+      at = phase.at(phase.duration);
+      time = phase.end_time();
+    }
+    State end;
+    end.position = problem_.path.segments.back().end;
+    continuous(at, end);
+    EXPECT_LE((plan_.trajectory.final_state().position - end.position).norm(), 1e-9);
+    stops_are_reached();
+    corners_keep_their_tolerance();
+  }
+
+ private:
+  void continuous(const State& before, const State& after) {
+    const auto& limits = problem_.options.limits;
+    EXPECT_LE((after.position - before.position).norm(), 1e-9 + 16 * rounding_);
+    for (std::size_t axis = 0; axis < limits.axes; ++axis) {
+      EXPECT_LE(std::abs(after.velocity[axis] - before.velocity[axis]), 1e-9 * limits.velocity[axis]);
+      EXPECT_LE(std::abs(after.acceleration[axis] - before.acceleration[axis]), 1e-9 * limits.acceleration[axis]);
+    }
+  }
+
+  void inside_limits(const Phase& phase, const State& state) {
+    const auto& limits = problem_.options.limits;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool exists = axis < limits.axes;
+      EXPECT_LE(std::abs(state.velocity[axis]), exists ? limits.velocity[axis] * kLimit : 0);
+      EXPECT_LE(std::abs(state.acceleration[axis]), exists ? limits.acceleration[axis] * kLimit : 0);
+      EXPECT_LE(std::abs(phase.jerk[axis]), exists ? limits.jerk[axis] * kLimit : 0);
+    }
+    double feed = INFINITY, tolerance = 0;
+    for (std::size_t i = phase.segments.first; i <= phase.segments.last && !segments_.empty(); ++i) {
+      feed = std::min(feed, segments_.at(i).feed);
+      tolerance = std::max(tolerance, segments_[i].tolerance);
+    }
+    EXPECT_LE(state.velocity.norm(), feed * kLimit);
+    EXPECT_LE(distance_to_path(state.position, problem_.path), tolerance + 16 * rounding_);
+  }
+
+  void stops_are_reached() {
+    for (const auto& segment : problem_.path.segments) {
+      if (!segment.stop && segment.dwell == 0) continue;
+      double nearest = (plan_.trajectory.final_state().position - segment.end).norm();
+      for (const Phase& phase : plan_.trajectory) {
+        if (phase.start.velocity.norm() <= 1e-9 * problem_.options.limits.velocity.maxCoeff()) {
+          nearest = std::min(nearest, (phase.start.position - segment.end).norm());
+        }
+      }
+      EXPECT_LE(nearest, 2e-9 + 16 * rounding_);
+    }
+  }
+
+  // The corner distance is not something that the contour error shows.
+  void corners_keep_their_tolerance() {
+    for (const auto& corner : plan_.corners) {
+      ASSERT_LT(corner.segment + 1, segments_.size());
+      const double tolerance = std::min(segments_[corner.segment].tolerance, segments_[corner.segment + 1].tolerance);
+      const bool contour = problem_.options.tolerance_kind == planning::ToleranceKind::kContourError;
+      EXPECT_LE(corner.corner_distance, tolerance * (contour ? 4 : 1));
+      EXPECT_LE(corner.contour_error, tolerance);
+      double nearest = INFINITY;
+      for (const Phase& phase : plan_.trajectory) {
+        if (phase.segments.last < corner.segment || phase.segments.first > corner.segment + 1) continue;
+        nearest = std::min(nearest, nearest_in(phase, corner.point));
+      }
+      // Corners by themselves have their middle at the middle, the quarter or an end of a phase; the others anywhere.
+      EXPECT_LE(nearest, corner.corner_distance * (1 + 1e-6) + 16 * rounding_ + 1e-12);
+    }
+  }
+
+  const Case& problem_;
+  const Plan& plan_;
+  std::vector<planning::Segment> segments_;
+  double rounding_ = 1e-15;
+};
+
+}  // namespace
+
+void judge(const Case& problem, const Plan& plan) { Judge(problem, plan).run(); }
+
+}  // namespace kcs::test

@@ -1,0 +1,111 @@
+#include "server/planning/penalized_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace kcs::planning {
+namespace {
+
+std::vector<Vector> wild_data(Eigen::Index size) {
+  std::vector<Vector> data;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto t = static_cast<double>(i);
+    data.emplace_back(std::sin(t), t, std::cos(3 * t));
+  }
+  return data;
+}
+
+// Over four decades, no two alike.
+FitWeights wild_weights(Eigen::Index size) {
+  FitWeights weights;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto t = static_cast<double>(i);
+    weights.place.push_back(std::exp(4 * std::sin(2.3 * t)));
+    weights.acceleration.push_back(std::exp(3 * std::cos(1.7 * t)));
+    weights.jerk.push_back(std::exp(std::cos(t)));
+  }
+  return weights;
+}
+
+// The normal equations of the same sum of squares, with every entry.
+Eigen::MatrixXd solved_densely(const FitWeights& weights, const std::vector<Vector>& data) {
+  const auto size = static_cast<Eigen::Index>(data.size());
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size, size), right = Eigen::MatrixXd::Zero(size, 3);
+  const auto add = [&](Eigen::Index first, double weight, const Eigen::RowVectorXd& difference) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(size);
+    row.segment(first, difference.size()) = difference;
+    system += weight * row.transpose() * row;
+  };
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    system(i, i) += weights.place[index];
+    right.row(i) = weights.place[index] * data[index].transpose();
+    if (i + 2 < size) add(i, weights.acceleration[index], Eigen::RowVector3d(1, -2, 1));
+    if (i + 3 < size) add(i, weights.jerk[index], Eigen::RowVector4d(-1, 3, -3, 1));
+  }
+  return system.ldlt().solve(right);
+}
+
+void expect_agreement(PenalizedFit& fit, const FitWeights& weights, const std::vector<Vector>& data) {
+  std::vector<Vector> found;
+  fit.solve(weights, data, found);
+  const Eigen::MatrixXd expected = solved_densely(weights, data);
+  ASSERT_EQ(found.size(), data.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LT((found[i].transpose() - expected.row(static_cast<Eigen::Index>(i))).norm(), 1e-9) << "point " << i;
+  }
+}
+
+TEST(PenalizedFit, AgreesWithADenseSolver) {
+  PenalizedFit fit;  // one for all: what the fit before left must not show
+  for (const Eigen::Index size : {60, 4, 5, 9, 3}) {
+    SCOPED_TRACE(size);
+    expect_agreement(fit, wild_weights(size), wild_data(size));
+  }
+}
+
+TEST(PenalizedFit, AgreesWithADenseSolverWhereWeightsAreZero) {
+  PenalizedFit fit;
+  FitWeights weights = wild_weights(30);
+  for (std::size_t i = 0; i < 30; ++i) {
+    if (i % 4 != 1) weights.place[i] = 0;
+    if (i % 3 == 0) weights.acceleration[i] = 0;
+    if (i % 5 == 2) weights.jerk[i] = 0;
+  }
+  expect_agreement(fit, weights, wild_data(30));
+}
+
+TEST(PenalizedFit, KeepsTheDataWhereNothingIsPenalized) {
+  const std::vector<Vector> data = wild_data(20);
+  const std::vector<double> none(20, 0.0);
+  std::vector<Vector> found;
+  PenalizedFit().solve({wild_weights(20).place, none, none}, data, found);
+  for (std::size_t i = 0; i < data.size(); ++i) EXPECT_LT((found[i] - data[i]).norm(), 1e-14) << i;
+}
+
+TEST(PenalizedFit, GoesThroughThreePointsWithoutJerk) {
+  std::vector<Vector> data(20, Vector(1e3, -1e3, 5)), found;
+  std::vector<double> place(20, 0.0);
+  const auto parabola = [](double i) { return Vector(i * i, 3 - i, 7); };
+  for (const std::size_t held : {2u, 9u, 16u}) {
+    place[held] = 1;
+    data[held] = parabola(static_cast<double>(held));
+  }
+  PenalizedFit().solve({place, std::vector(20, 0.0), std::vector(20, 1.0)}, data, found);
+  for (std::size_t i = 0; i < data.size(); ++i) EXPECT_LT((found[i] - parabola(static_cast<double>(i))).norm(), 1e-6);
+}
+
+TEST(PenalizedFit, HoldsFirmlyWhatIsHeldFirmly) {
+  FitWeights weights{std::vector(40, 1e-3), std::vector(40, 1.0), std::vector(40, 1.0)};
+  weights.place[17] = 1e9;
+  const std::vector<Vector> data = wild_data(40);
+  std::vector<Vector> found;
+  PenalizedFit().solve(weights, data, found);
+  EXPECT_LT((found[17] - data[17]).norm(), 1e-8);
+  EXPECT_GT((found[30] - data[30]).norm(), 0.1);
+}
+
+}  // namespace
+}  // namespace kcs::planning
