@@ -116,23 +116,4 @@ bool comes_within(const Curve& curve, const Vector& point, double distance) {
          (curve.points.back() - point).squaredNorm() <= square || comes_within(curve, point, distance, 0);
 }
 
-double closest_approach(const Phase& phase, const Vector& point) {
-  const auto distance = [&](double time) { return (phase.at(time).position - point).norm(); };
-  constexpr int kSamples = 16;
-  const double step = phase.duration / kSamples;
-  int nearest = 0;
-  for (int i = 1; i <= kSamples; ++i) {
-    if (distance(i * step) < distance(nearest * step)) nearest = i;
-  }
-  double low = std::max(0, nearest - 1) * step, high = std::min(kSamples, nearest + 1) * step;
-  double found = distance(nearest * step);
-  for (int i = 0; i < 40; ++i) {  // each step keeps two thirds
-    const double left = low + (high - low) / 3, right = high - (high - low) / 3;
-    const double at_left = distance(left), at_right = distance(right);
-    found = std::min({found, at_left, at_right});
-    (at_left < at_right ? high : low) = at_left < at_right ? right : left;
-  }
-  return found;
-}
-
 }  // namespace kcs::motion

@@ -23,7 +23,4 @@ double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, 
 // Whether the curve comes as near as `distance` (mm) to a point. What only a billionth of the curve does goes unseen.
 bool comes_within(const Curve& curve, const Vector& point, double distance);
 
-// How near the phase's curve comes to a point, mm: at most a millionth too much where it has one nearest place.
-double closest_approach(const Phase& phase, const Vector& point);
-
 }  // namespace kcs::motion

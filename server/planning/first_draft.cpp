@@ -54,7 +54,7 @@ class Draft {
 
   void divide() {
     const auto legs = path_.legs();
-    std::size_t leg = path_.leg_at(range_.from, 0);
+    std::size_t leg = path_.leg_at(range_.from);
     double from = range_.from, speed = range_.at_most.entry;
     for (; leg + 1 < legs.size() && path_.way(leg + 1) < range_.to; ++leg) {
       const double corner = corner_speed(leg);

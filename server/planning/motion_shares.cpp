@@ -22,6 +22,15 @@ constexpr double kGoesBack = 1.5;
 // A tool that goes back by less than this share of an axis' speed stands.
 constexpr double kStanding = 1e-10;
 
+// From a point to the spline around the control point k, mm: to the chords between its knots.
+double distance_near(const TimeSpline& spline, std::size_t k, const Vector& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t m = std::max<std::size_t>(k, 3) - 2; m <= std::min(spline.points.size() - 3, k + 3); ++m) {
+    nearest = std::min(nearest, motion::distance_to_segment(point, spline.knot(m - 1), spline.knot(m)));
+  }
+  return nearest;
+}
+
 double share_of(const Vector& value, const motion::AxisLimits& limits, const Vector& limit) {
   double result = 0;
   for (std::size_t axis = 0; axis < limits.axes; ++axis) {
@@ -68,15 +77,10 @@ void MotionShares::measure_corners(const StretchPath& path, TimeSpline& spline) 
   const auto legs = path.legs();
   const auto& ways = spline.ways;
   std::size_t k = 1;
-  for (std::size_t i = path.leg_at(ways[1], 0); i + 1 < legs.size() && path.way(i + 1) < ways[ways.size() - 2]; ++i) {
+  for (std::size_t i = path.leg_at(ways[1]); i + 1 < legs.size() && path.way(i + 1) < ways[ways.size() - 2]; ++i) {
     if ((legs[i + 1].direction - legs[i].direction).squaredNorm() < kSharp * kSharp) continue;
     while (k + 3 < ways.size() && ways[k + 1] < path.way(i + 1)) ++k;
-    const Vector& corner = path.corners()[i + 1];
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t m = std::max<std::size_t>(k, 3) - 2; m <= std::min(ways.size() - 3, k + 3); ++m) {
-      nearest = std::min(nearest, motion::distance_to_segment(corner, spline.knot(m - 1), spline.knot(m)));
-    }
-    const double share = nearest / path.reach(i);
+    const double share = distance_near(spline, k, path.corners()[i + 1]) / path.reach(i);
     raise(k - 1, 3, share);
     if (share < kCut) continue;
     const std::size_t drawn = path.way(i + 1) - ways[k] < ways[k + 1] - path.way(i + 1) ? k : k + 1;
@@ -112,9 +116,8 @@ double MotionShares::slower() const {
 }
 
 bool MotionShares::verify_places(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline) {
-  first_corner_ = path.leg_at(spline.ways[0], 0);
-  nearest_.assign(path.leg_at(spline.ways.back(), first_corner_) - first_corner_ + 1,
-                  std::numeric_limits<double>::infinity());
+  first_corner_ = path.leg_at(spline.ways[0]);
+  reached_.assign(path.leg_at(spline.ways.back(), first_corner_) - first_corner_ + 1, false);
   bool well = true;
   for (std::size_t j = 0; j < spline.pieces(); ++j) well &= verify_piece(path, limits, spline, j);
   return verify_corners(path, spline) && well;
@@ -140,10 +143,10 @@ bool MotionShares::verify_piece(const StretchPath& path, const motion::AxisLimit
     well = false;
     raise(k, 2, kGoesBack);
   }
-  for (std::size_t i = first; i < last; ++i) {
-    if (i < first_corner_ || i - first_corner_ >= nearest_.size()) continue;
-    double& nearest = nearest_[i - first_corner_];
-    if (nearest > path.reach(i)) nearest = std::min(nearest, motion::closest_approach(phase, path.corners()[i + 1]));
+  const auto curve = motion::Curve::between(phase.start, phase.at(phase.duration), phase.duration);
+  for (std::size_t i = std::max(first, first_corner_); i < std::min(last, first_corner_ + reached_.size()); ++i) {
+    auto reached = reached_[i - first_corner_];
+    if (!reached) reached = motion::comes_within(curve, path.corners()[i + 1], path.reach(i));
   }
   return well;
 }
@@ -152,14 +155,13 @@ bool MotionShares::verify_corners(const StretchPath& path, const TimeSpline& spl
   const auto& ways = spline.ways;
   bool well = true;
   std::size_t k = 1;
-  for (std::size_t n = 0; n < nearest_.size(); ++n) {
+  for (std::size_t n = 0; n < reached_.size(); ++n) {
     const std::size_t i = first_corner_ + n;
     if (i + 1 >= path.legs().size() || path.way(i + 1) <= ways[1] || path.way(i + 1) >= ways[ways.size() - 2]) continue;
-    if (nearest_[n] <= path.reach(i)) continue;
+    if (reached_[n]) continue;
     well = false;
     while (k + 2 < ways.size() && ways[k + 1] < path.way(i + 1)) ++k;
-    // No piece knows both sides of the corner: then the shares of place say so already.
-    if (std::isfinite(nearest_[n])) raise(k, 2, kEmphasis * nearest_[n] / path.reach(i));
+    raise(k, 2, kEmphasis * std::max(1.0, distance_near(spline, k, path.corners()[i + 1]) / path.reach(i)));
   }
   return well;
 }

@@ -44,7 +44,7 @@ class MotionShares {
 
   std::vector<double> place_, speed_, acceleration_, jerk_;
   double largest_place_ = 0;
-  std::vector<double> nearest_;  // to each corner, mm
+  std::vector<bool> reached_;  // the corners from first_corner_ on
   std::size_t first_corner_ = 0;
 };
 

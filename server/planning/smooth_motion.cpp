@@ -110,7 +110,7 @@ void SmoothMotion::fit() {
   drawn_to_ = spline_.ways;
   data_.resize(size);
   legs_.resize(size);
-  std::size_t leg = legs_.front();
+  std::size_t leg = path_.leg_at(drawn_to_.front());
   for (std::size_t i = 0; i < size; ++i) {
     legs_[i] = leg = path_.leg_at(drawn_to_[i], leg);
     data_[i] = path_.at(leg, drawn_to_[i]);

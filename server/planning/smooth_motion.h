@@ -85,7 +85,7 @@ class SmoothMotion {
   double work_ = 0;
   bool finishing_ = false, urgent_ = false;
   // Scratch, kept from round to round.
-  std::vector<std::size_t> legs_{0};    // of the ways
+  std::vector<std::size_t> legs_;       // of the ways
   std::vector<Vector> data_;            // on the path
   std::vector<double> drawn_to_;        // the ways of data_
   std::vector<double> wishes_, paces_;  // of each step: how much longer it should take

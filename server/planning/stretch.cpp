@@ -36,7 +36,7 @@ double Stretch::stopping_way(double feed) const {
 // The way after which so many steps of time have passed at the feed, and this much at least, mm.
 double Stretch::beyond(double from, double steps, double least) const {
   double time = 0, way = from;
-  for (std::size_t leg = path_.leg_at(from, 0); leg < path_.legs().size(); ++leg) {
+  for (std::size_t leg = path_.leg_at(from); leg < path_.legs().size(); ++leg) {
     const double feed = path_.legs()[leg].feed, length = path_.way(leg + 1) - way;
     const double needed = std::max((steps * step_ - time) * feed, from + least - way);
     if (needed <= length) return way + needed;
@@ -47,7 +47,7 @@ double Stretch::beyond(double from, double steps, double least) const {
 }
 
 double Stretch::ahead(double from, double share) const {
-  const double feed = path_.legs()[path_.leg_at(from, 0)].feed;
+  const double feed = path_.legs()[path_.leg_at(from)].feed;
   return beyond(from, share * kAheadSteps, share * kAheadStops * stopping_way(feed));
 }
 

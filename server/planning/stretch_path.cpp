@@ -33,6 +33,10 @@ StretchPath::StretchPath(const LegPath& path, const LegRange& range, const PlanO
   corners_.back() -= range.left * legs_.back().direction;
 }
 
+std::size_t StretchPath::leg_at(double way) const {
+  return static_cast<std::size_t>(std::lower_bound(ends_.begin() + 1, ends_.end() - 1, way) - ends_.begin()) - 1;
+}
+
 std::size_t StretchPath::leg_at(double way, std::size_t near) const {
   while (near > 0 && way < ends_[near]) --near;
   while (near + 1 < legs_.size() && way > ends_[near + 1]) ++near;

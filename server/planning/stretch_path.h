@@ -44,7 +44,9 @@ class StretchPath {
   // The point at a way on a leg; beyond the ends of the stretch it goes on straight. From origin().
   Vector at(std::size_t leg, double way) const { return corners_[leg] + (way - ends_[leg]) * legs_[leg].direction; }
 
-  // The leg at a way; searches from a leg near it.
+  // The leg at a way; where two meet, the first. Logarithmic in the number of legs.
+  std::size_t leg_at(double way) const;
+  // The same; searches from a leg near it.
   std::size_t leg_at(double way, std::size_t near) const;
 
   // The place nearest to a point, from origin(), among those that are nearer and nearer from a leg on.

@@ -111,15 +111,6 @@ TEST(ComesWithin, KnowsTheNearestPlaceOfACurve) {
   }
 }
 
-TEST(ClosestApproach, FindsTheNearestPlaceOfACurve) {
-  Phase phase{.duration = 3};
-  phase.start.position = Vector(-1, 2, 0);
-  phase.start.velocity = Vector(1, 0, 0);
-  EXPECT_NEAR(closest_approach(phase, {0.123, 0, 0}), 2, 1e-9);
-  EXPECT_NEAR(closest_approach(phase, {-4, -2, 0}), 5, 1e-9);
-  EXPECT_NEAR(closest_approach(phase, {5, 2, 0}), 3, 1e-9);
-}
-
 TEST(Mitres, ArePassedInTheMiddleOfASymmetricCorner) {
   const auto pieces = pieces_through({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0}});
   Phase phase{.duration = 1, .jerk = Vector::Zero()};
