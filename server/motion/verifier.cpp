@@ -40,9 +40,8 @@ AxisLimits without_missing_axes(AxisLimits limits) {
 
 }  // namespace
 
-Verifier::Verifier(const State& start, const AxisLimits& limits, const Vector& end_velocity)
+Verifier::Verifier(const State& start, const AxisLimits& limits)
     : limits_(without_missing_axes(limits)),
-      end_velocity_(end_velocity),
       course_(start.position),
       route_(kRoundingShare * limits_.velocity.maxCoeff()),
       end_(start),
@@ -72,12 +71,11 @@ void Verifier::follow(const Phase& phase) {
   course_.forget_before(route_.first_needed());
 }
 
-Verification Verifier::finish(const State& end) {
+Verification Verifier::finish(const State& end, const Vector& velocity) {
   if (broken_) return result_;
   const std::uint32_t last = course_.segments() - 1;
-  const Phase after{.start_time = end_time_,
-                    .start = {.position = course_.end(), .velocity = end_velocity_},
-                    .segments = {last, last}};
+  const Phase after{
+      .start_time = end_time_, .start = {.position = course_.end(), .velocity = velocity}, .segments = {last, last}};
   check_joint(after, course_.pieces_of(after.segments));
   const bool as_asked = end.position == after.start.position && end.velocity == after.start.velocity &&
                         end.acceleration == after.start.acceleration;
@@ -158,7 +156,7 @@ void Verifier::check_path(const Phase& phase, const SegmentRange& range) {
 
 Verification verify(const Trajectory& trajectory, const Reference& reference, const AxisLimits& limits) {
   const State start{reference.points.front(), reference.start_velocity, reference.start_acceleration};
-  Verifier verifier(start, limits, reference.end_velocity);
+  Verifier verifier(start, limits);
   std::size_t added = 0;
   const auto add = [&] {
     verifier.add({reference.points[added + 1], reference.feed[added], reference.tolerance[added],
@@ -170,7 +168,7 @@ Verification verify(const Trajectory& trajectory, const Reference& reference, co
     verifier.follow(phase);
   }
   while (added < reference.feed.size()) add();
-  return verifier.finish(trajectory.final_state());
+  return verifier.finish(trajectory.final_state(), reference.end_velocity);
 }
 
 }  // namespace kcs::motion

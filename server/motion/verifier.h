@@ -37,8 +37,7 @@ struct Verification {
 class Verifier {
  public:
   // start: where the path begins, and the velocity and acceleration that the motion must begin with.
-  // end_velocity: that it must end with, mm/s, without acceleration.
-  Verifier(const State& start, const AxisLimits& limits, const Vector& end_velocity = Vector::Zero());
+  Verifier(const State& start, const AxisLimits& limits);
 
   // The next segment of the path.
   void add(const PathSegment& segment) { course_.add(segment); }
@@ -51,8 +50,9 @@ class Verifier {
   // A corner that is missed shows when the motion has left both of its sides.
   void follow(const Phase& phase);
 
-  // After the last segment and the last phase. end: what the trajectory says of its end.
-  Verification finish(const State& end);
+  // After the last segment and the last phase. end: what the trajectory says of its end; velocity: what it must be
+  // there, mm/s, without acceleration.
+  Verification finish(const State& end, const Vector& velocity = Vector::Zero());
 
   // What is known so far.
   const Verification& so_far() const { return result_; }
@@ -67,7 +67,6 @@ class Verifier {
   void note(const Phase& phase, const std::string& fault);
 
   AxisLimits limits_;
-  Vector end_velocity_;
   Course course_;
   Route route_;
   bool broken_ = false;  // a phase had no meaning: there is nothing to measure after it

@@ -10,36 +10,14 @@
 namespace kcs::planning {
 namespace {
 
-// Up to so many legs, kAuto is compared with the other strategies throughout; in longer paths the differences even out,
-// and planning four times takes too long.
-constexpr std::size_t kCompared = 1000;
-
 // A stretch that cannot be as slow at its ends as its neighbours ask is taken apart, and all is planned again, so
 // often.
 constexpr int kAttempts = 2;
 
-CornerPlan with_strategy(const LegPath& path, const PlanOptions& options, CornerStrategy strategy) {
-  PlanOptions one = options;
-  one.strategy = strategy;
-  std::set<std::size_t> alone;
-  for (int attempt = 0;; ++attempt) {
-    CornerPlan plan;
-    plan.stages = stages_of(path, alone, one);
-    const std::size_t known = alone.size();
-    plan.speeds = corner_speeds(plan.stages);
-    for (const Stage& stage : plan.stages) {
-      if (stage.stretch && stage.stretch->failed()) alone.insert(stage.first_leg);
-    }
-    if (alone.size() == known) return plan;
-    // Stretches that hold each other up: then none of them.
-    for (std::size_t i = 0; attempt == kAttempts && i < path.legs.size(); ++i) alone.insert(i);
-  }
-}
-
 // Without dwells, s.
-double travel_time(const CornerPlan& plan) {
+double travel_time(const CornerPlan& plan, const Entry& begin) {
   double time = 0;
-  CornerMotion entry;
+  CornerMotion entry = begin.motion;
   for (std::size_t i = 0; i < plan.stages.size(); ++i) {
     const Stage& stage = plan.stages[i];
     const CornerMotion exit = stage.exit.at(plan.speeds[i]);
@@ -52,18 +30,36 @@ double travel_time(const CornerPlan& plan) {
 
 }  // namespace
 
-CornerPlan plan_corners(const LegPath& path, const PlanOptions& options) {
-  CornerPlan best = with_strategy(path, options, options.strategy);
-  if (options.strategy != CornerStrategy::kAuto || path.legs.size() > kCompared) return best;
-  double best_time = travel_time(best);
+std::optional<CornerPlan> plan_corners(const LegPath& path, const Entry& entry, double end_speed,
+                                       const PlanOptions& options) {
+  std::set<std::size_t> alone;
+  for (int attempt = 0;; ++attempt) {
+    auto [stages, needs] = stages_of(path, entry, end_speed, alone, options);
+    const std::size_t known = alone.size();
+    if (entry.begun && stages.front().stretch->failed()) return {};
+    auto speeds = corner_speeds(stages, entry.motion);
+    if (!speeds || (entry.begun && stages.front().stretch->failed())) return {};
+    for (const Stage& stage : stages) {
+      if (stage.stretch && stage.stretch->failed()) alone.insert(stage.first_leg);
+    }
+    if (alone.size() == known) return CornerPlan{std::move(stages), std::move(needs), std::move(*speeds), known > 0};
+    // Stretches that hold each other up: then none of them.
+    for (std::size_t i = 0; attempt == kAttempts && i < path.legs.size(); ++i) alone.insert(i);
+  }
+}
+
+std::optional<CornerPlan> compare_corners(const LegPath& path, const Entry& entry, double end_speed,
+                                          const PlanOptions& options) {
+  auto best = plan_corners(path, entry, end_speed, options);
+  if (options.strategy != CornerStrategy::kAuto) return best;
   for (const auto strategy : {CornerStrategy::kBlended, CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted,
                               CornerStrategy::kExactStop}) {
-    CornerPlan other = with_strategy(path, options, strategy);
-    const double time = travel_time(other);
-    if (time < best_time) {
-      best = std::move(other);
-      best_time = time;
-    }
+    PlanOptions one = options;
+    one.strategy = strategy;
+    auto other = plan_corners(path, entry, end_speed, one);
+    if (!other || (best && travel_time(*other, entry) >= travel_time(*best, entry))) continue;
+    other->taken_apart = best && best->taken_apart;
+    best = std::move(other);
   }
   return best;
 }

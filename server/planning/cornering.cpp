@@ -82,27 +82,30 @@ const Cornering& faster(const CornerGeometry& corner, const Cornering& first, co
 }  // namespace
 
 double Cornering::max_speed() const {
-  return std::visit(Overloaded{[](const ExactStop&) { return 0.0; }, [](const Passage& way) { return way.speed; },
-                               [](const auto& way) { return way.max_speed(); }},
-                    way_);
+  return std::visit(
+      Overloaded{[](const ExactStop&) { return 0.0; }, [](const Passage& way) { return way.speed; },
+                 [](const Settled& way) { return way.motion.speed; }, [](const auto& way) { return way.max_speed(); }},
+      way_);
 }
 
 CornerMotion Cornering::at(double speed) const {
-  return std::visit(Overloaded{[](const ExactStop&) { return CornerMotion{}; },
-                               [&](const Passage&) { return CornerMotion{.speed = speed}; },
-                               [&](const auto& way) { return way.at(speed); }},
-                    way_);
+  return std::visit(
+      Overloaded{[](const ExactStop&) { return CornerMotion{}; },
+                 [&](const Passage&) { return CornerMotion{.speed = speed}; },
+                 [](const Settled& way) { return way.motion; }, [&](const auto& way) { return way.at(speed); }},
+      way_);
 }
 
 double Cornering::speed_at_level(double level, double leg_jerk) const {
   return std::visit(
       Overloaded{[](const ExactStop&) { return 0.0; }, [&](const Passage& way) { return std::min(way.speed, level); },
+                 [](const Settled& way) { return way.motion.speed; },
                  [&](const auto& way) { return std::min(way.max_speed(), way.speed_at_level(level, leg_jerk)); }},
       way_);
 }
 
 void Cornering::append_phases(const CornerGeometry& corner, double speed, std::vector<motion::Phase>& phases) const {
-  std::visit(Overloaded{[](const ExactStop&) {}, [](const Passage&) {},
+  std::visit(Overloaded{[](const ExactStop&) {}, [](const Passage&) {}, [](const Settled&) {},
                         [&](const auto& way) { way.append_phases(corner, speed, phases); }},
              way_);
 }
@@ -118,11 +121,11 @@ Cornering choose_cornering(const CornerGeometry& corner, CornerStrategy strategy
   if (strategy == CornerStrategy::kExactStop || corner.cut == 0) return {};
   const Cornering interrupted{Interrupted(corner, limits)};
   if (strategy == CornerStrategy::kInterrupted) return interrupted;
+  if (strategy == CornerStrategy::kAuto && loses_nothing(corner, interrupted)) return interrupted;
   const Cornering uninterrupted{Uninterrupted(corner, limits)};
   if (strategy == CornerStrategy::kUninterrupted) return uninterrupted;
   const Cornering& paper = faster(corner, interrupted, uninterrupted);
-  if (!Blended::suits(corner) || (strategy == CornerStrategy::kAuto && loses_nothing(corner, interrupted)))
-    return paper;
+  if (!Blended::suits(corner)) return paper;
   const Cornering blended = fastest_blend(corner, limits);
   return strategy == CornerStrategy::kBlended ? blended : faster(corner, paper, blended);
 }

@@ -20,9 +20,15 @@ struct Passage {
   double speed = 0;
 };
 
+// It is settled already.
+struct Settled {
+  CornerMotion motion;
+};
+
 class Cornering {
  public:
   Cornering() = default;  // an exact stop
+  explicit Cornering(const Settled& settled) : way_(settled) {}
   explicit Cornering(const Passage& passage) : way_(passage) {}
   explicit Cornering(const Interrupted& way) : way_(way) {}
   explicit Cornering(const Uninterrupted& way) : way_(way) {}
@@ -38,15 +44,16 @@ class Cornering {
   // already braking with Ac needs a leg on which the tool was as fast as V + Ac²/(2J), its level there.
   double speed_at_level(double level, double leg_jerk) const;
 
-  // Writes the corner's phases at `speed` > 0 to `phases`, without times and segments; none for a passage.
+  // Writes the corner's phases at `speed` > 0 to `phases`, without times and segments; none for a passage and for
+  // what is settled.
   void append_phases(const CornerGeometry& corner, double speed, std::vector<motion::Phase>& phases) const;
 
   bool is_passage() const { return std::holds_alternative<Passage>(way_); }
-  // Never kAuto; a passage counts as kInterrupted.
+  // Never kAuto; a passage and what is settled count as kInterrupted.
   CornerStrategy strategy() const;
 
  private:
-  std::variant<ExactStop, Passage, Interrupted, Uninterrupted, Blended> way_;
+  std::variant<ExactStop, Passage, Settled, Interrupted, Uninterrupted, Blended> way_;
 };
 
 // The fastest family of the given strategy for a corner; for kAuto the fastest of all, judged by the time from the

@@ -6,7 +6,6 @@
 
 #include "server/motion/phase.h"
 #include "server/planning/options.h"
-#include "server/planning/toolpath.h"
 
 namespace kcs::planning {
 
@@ -17,6 +16,7 @@ struct Leg {
   Vector direction = Vector::Zero();  // unit tangent
   double length = 0;                  // mm, > 0
   double tolerance = 0;               // mm, at its corners
+  double programmed_feed = 0;         // mm/s
   // What the axes and the program allow along the leg:
   double feed = 0;                // mm/s
   double acceleration = 0;        // mm/s²
@@ -31,22 +31,13 @@ struct Joint {
   std::uint32_t line = 0;  // of the segment that ends here
 };
 
-// A tool path without segments of no length, and its legs. joints[i] is where legs[i] ends.
+// Legs that follow each other: joints[i] is where legs[i] ends.
 struct LegPath {
-  double initial_dwell = 0;  // s, before anything moves
   std::vector<Leg> legs;
-  std::vector<Joint> joints;  // as many as legs; the last one is the end of the path
-  // Segment by segment, for the verifier:
-  std::vector<Vector> points;      // mm; one more than segments
-  std::vector<double> feeds;       // mm/s, as programmed
-  std::vector<double> tolerances;  // mm
-  std::vector<double> rests;       // s, at the segment's end; negative: no rest
+  std::vector<Joint> joints;
 };
 
 // What the axes allow along `direction`: the smallest limit_i / |direction_i|; +infinity for a zero vector.
 double along(const Vector& limit, const Vector& direction, std::size_t axes);
-
-// Breaks a path into legs. Its numbers must be valid (validation.h).
-LegPath legs_of(const Toolpath& path, const AxisLimits& limits);
 
 }  // namespace kcs::planning

@@ -8,8 +8,6 @@
 namespace kcs::planning {
 namespace {
 
-const Cornering kRest;
-
 // One leg with the corners at its ends.
 struct Span {
   const Leg& leg;
@@ -28,23 +26,24 @@ struct Span {
 
 class LookAhead {
  public:
-  explicit LookAhead(std::span<const Stage> stages) : stages_(stages) {
+  LookAhead(std::span<const Stage> stages, const CornerMotion& entry) : stages_(stages), entry_(Settled{entry}) {
     for (const Stage& stage : stages) speeds_.push_back(stage.exit.max_speed());
   }
 
-  std::vector<double> run() {
+  std::optional<std::vector<double>> run() {
     for (std::size_t i = 0; i < stages_.size(); ++i) level(i);
     do {
       for (std::size_t i = stages_.size(); i-- > 1;) brake(i);
       again_ = false;
       for (std::size_t i = 0; i < stages_.size(); ++i) accelerate(i);
     } while (again_);
+    if (!stages_[0].stretch && !span(0).possible(entry_speed(0), speeds_[0])) return {};
     return std::move(speeds_);
   }
 
  private:
-  Span span(std::size_t i) const { return {stages_[i].leg, i == 0 ? kRest : stages_[i - 1].exit, stages_[i].exit}; }
-  double entry_speed(std::size_t i) const { return i == 0 ? 0 : speeds_[i - 1]; }
+  Span span(std::size_t i) const { return {stages_[i].leg, i == 0 ? entry_ : stages_[i - 1].exit, stages_[i].exit}; }
+  double entry_speed(std::size_t i) const { return i == 0 ? entry_.max_speed() : speeds_[i - 1]; }
 
   // Lowers the greatest speeds of both corners to a common level that the leg can carry.
   void level(std::size_t i) {
@@ -82,7 +81,7 @@ class LookAhead {
     if (stages_[i].stretch) {
       const EndSpeeds ends = stages_[i].stretch->plan({entry, exit});
       exit = ends.exit;
-      if (ends.entry < entry) {
+      if (i > 0 && ends.entry < entry) {
         speeds_[i - 1] = ends.entry;
         again_ = true;
       }
@@ -95,12 +94,15 @@ class LookAhead {
   }
 
   std::span<const Stage> stages_;
+  Cornering entry_;
   std::vector<double> speeds_;
   bool again_ = false;
 };
 
 }  // namespace
 
-std::vector<double> corner_speeds(std::span<const Stage> stages) { return LookAhead(stages).run(); }
+std::optional<std::vector<double>> corner_speeds(std::span<const Stage> stages, const CornerMotion& entry) {
+  return LookAhead(stages, entry).run();
+}
 
 }  // namespace kcs::planning

@@ -28,45 +28,56 @@ constexpr double kMostSteps = 50;
 
 class StageMaker {
  public:
-  StageMaker(const LegPath& path, std::set<std::size_t>& alone, const PlanOptions& options)
-      : path_(path), alone_(alone), options_(options) {
+  StageMaker(const LegPath& path, const Entry& entry, double end_speed, std::set<std::size_t>& alone,
+             const PlanOptions& options)
+      : path_(path), entry_(entry), end_speed_(end_speed), alone_(alone), options_(options), taken_(entry.taken) {
     for (std::size_t i = 0; i + 1 < path.legs.size(); ++i) {
       if (options.strategy == CornerStrategy::kAuto) {
         add_needs(i);
       } else {
-        needs_.push_back({0, 0, false});
+        needs_.push_back({});
       }
     }
-    for (std::size_t i = 1; i < needs_.size(); ++i) {
-      needs_[i].after = std::max(needs_[i].after, needs_[i - 1].after - path.legs[i].length);
+    for (std::size_t i = 0; i < needs_.size(); ++i) {
+      needs_[i].after = std::max(needs_[i].after, needed_after(i) - path.legs[i].length);
     }
     for (std::size_t i = needs_.size(); i-- > 1;) {
       needs_[i - 1].before = std::max(needs_[i - 1].before, needs_[i].before - path.legs[i].length);
     }
   }
 
-  std::vector<Stage> run() {
-    for (std::size_t leg = 0; leg < path_.legs.size();) {
-      std::size_t last = leg;
-      while (coupled(last)) ++last;
+  Stages run() {
+    std::size_t leg = entry_.begun ? go_on() : 0;
+    while (leg < path_.legs.size()) {
+      const std::size_t last = last_coupled(leg);
       if (last == leg || alone_.contains(leg) || !add_stretch(leg, last + 1)) {
         do {
           add_leg(leg);
         } while (leg++ < last);
       } else {
-        leg = last + 1 + (taken_whole_ ? 1 : 0);
+        leg = after_stretch(last + 1);
       }
     }
-    return std::move(stages_);
+    return {std::move(stages_), std::move(needs_)};
   }
 
  private:
-  // What the corners up to one need of the way after it, and those from it on of the way before it, so that the tool
-  // may be at the feed beyond, mm.
-  struct Needs {
-    double before = 0, after = 0;
-    bool smooth = false;  // it is no stop
-  };
+  // Returns the leg after the stretch that has begun.
+  std::size_t go_on() {
+    const std::size_t last = last_coupled(entry_.begun->joint) + 1;
+    const ExitShare exit = exit_share(last);
+    auto stretch = std::make_shared<Stretch>(path_, LegRange{0, last, 0, exit.left}, options_,
+                                             EndSpeeds{0, exit.at_most}, &*entry_.begun);
+    add_stretch_stage(std::move(stretch), 0, last, exit);
+    return after_stretch(last);
+  }
+
+  std::size_t last_coupled(std::size_t joint) const {
+    while (coupled(joint)) ++joint;
+    return joint;
+  }
+
+  std::size_t after_stretch(std::size_t last) const { return last + (taken_whole_ ? 1 : 0); }
 
   static double need(const Leg& leg, const CornerMotion& motion) {
     const LegEnd end = leg_end(motion, leg);
@@ -93,6 +104,17 @@ class StageMaker {
 
   bool smooth(std::size_t i) const { return i < needs_.size() && needs_[i].smooth; }
 
+  // What is needed of a leg for the corner before it, and for the one after it.
+  double needed_after(std::size_t leg) const {
+    if (leg > 0) return needs_[leg - 1].after;
+    return entry_.rests ? need(path_.legs[0], {}) : entry_.need;
+  }
+  double needed_before(std::size_t leg) const {
+    return leg < needs_.size() ? needs_[leg].before : need(path_.legs[leg], {.speed = end_speed_});
+  }
+  bool rests_before(std::size_t leg) const { return leg == 0 ? entry_.rests : !smooth(leg - 1); }
+  bool rests_after(std::size_t leg) const { return leg == needs_.size() ? end_speed_ == 0 : !smooth(leg); }
+
   // The corners at the ends of legs i and i + 1 are too near to each other.
   bool coupled(std::size_t i) const {
     if (!smooth(i) || !smooth(i + 1)) return false;
@@ -111,7 +133,9 @@ class StageMaker {
 
   void add_leg(std::size_t i) {
     Stage stage{.leg = path_.legs[i], .first_leg = i, .last_leg = i};
-    if (i + 1 < path_.legs.size() && !path_.joints[i].stop) {
+    if (i + 1 == path_.legs.size()) {
+      if (end_speed_ > 0) stage.exit = Cornering(Passage{end_speed_});
+    } else if (!path_.joints[i].stop) {
       stage.exit = choose_cornering(corner_geometry(path_.legs[i], path_.legs[i + 1], options_), options_.strategy,
                                     options_.limits);
     }
@@ -132,17 +156,27 @@ class StageMaker {
     return std::min(leg.feed, room / (kLeastSteps * step_of_time(leg.tolerance, options_.limits)));
   }
 
+  // How a stretch that ends on a leg ends.
+  struct ExitShare {
+    double left = 0;     // of the leg, mm; 0: the tool rests at its end
+    double at_most = 0;  // speed, mm/s
+  };
+
+  ExitShare exit_share(std::size_t last) const {
+    const Leg& out = path_.legs[last];
+    const double left = out.length - share(out, needed_after(last), needed_before(last), rests_after(last));
+    if (left <= 0) return {};
+    return {left, gate_speed(out, out.length - left)};
+  }
+
   // Legs first to last; their outer ends may be left to straight stages.
   bool add_stretch(std::size_t first, std::size_t last) {
-    const Leg &in = path_.legs[first], &out = path_.legs[last];
-    const double far_before = first == 0 ? need(in, {}) : needs_[first - 1].after;
-    const double far_after = last == needs_.size() ? need(out, {}) : needs_[last].before;
-    const double from = in.length - share(in, needs_[first].before, far_before, first == 0 || !smooth(first - 1));
-    const double left = out.length - share(out, needs_[last - 1].after, far_after, !smooth(last));
-    const bool rests_first = from <= taken_, rests_last = left <= 0;
-    const LegRange range{first, last, rests_first ? 0 : from, rests_last ? 0 : left};
-    const EndSpeeds at_most{rests_first ? 0 : gate_speed(in, in.length - from),
-                            rests_last ? 0 : gate_speed(out, out.length - left)};
+    const Leg& in = path_.legs[first];
+    const double from = in.length - share(in, needs_[first].before, needed_after(first), rests_before(first));
+    const bool rests_first = from <= taken_;
+    const ExitShare exit = exit_share(last);
+    const LegRange range{first, last, rests_first ? 0 : from, exit.left};
+    const EndSpeeds at_most{rests_first ? 0 : gate_speed(in, in.length - from), exit.at_most};
     auto stretch = std::make_shared<Stretch>(path_, range, options_, at_most);
     if (stretch->failed()) {
       alone_.insert(first);
@@ -159,27 +193,34 @@ class StageMaker {
       stage.leg.length -= in.length - from;
       stages_.push_back(std::move(stage));
     }
-    Stage stage{.stretch = stretch, .first_leg = first, .last_leg = last, .ends_on_joint = rests_last};
-    if (!rests_last) stage.exit = Cornering(Passage{stretch->speeds().exit});
-    stages_.push_back(std::move(stage));
-    taken_ = rests_last ? 0 : out.length - left;
-    taken_whole_ = rests_last;
+    add_stretch_stage(std::move(stretch), first, last, exit);
     return true;
   }
 
+  void add_stretch_stage(std::shared_ptr<Stretch> stretch, std::size_t first, std::size_t last, const ExitShare& exit) {
+    taken_whole_ = exit.left == 0;
+    taken_ = taken_whole_ ? 0 : path_.legs[last].length - exit.left;
+    Stage stage{.stretch = std::move(stretch), .first_leg = first, .last_leg = last, .ends_on_joint = taken_whole_};
+    if (!taken_whole_) stage.exit = Cornering(Passage{stage.stretch->speeds().exit});
+    stages_.push_back(std::move(stage));
+  }
+
   const LegPath& path_;
+  const Entry& entry_;
+  double end_speed_;
   std::set<std::size_t>& alone_;
   const PlanOptions& options_;
-  std::vector<Needs> needs_;  // of each joint but the last
-  double taken_ = 0;          // of the next leg, by the stretch before it, mm
+  std::vector<CornerNeeds> needs_;
+  double taken_;  // of the next leg, by the stretch before it, mm
   bool taken_whole_ = false;
   std::vector<Stage> stages_;
 };
 
 }  // namespace
 
-std::vector<Stage> stages_of(const LegPath& path, std::set<std::size_t>& alone, const PlanOptions& options) {
-  return StageMaker(path, alone, options).run();
+Stages stages_of(const LegPath& path, const Entry& entry, double end_speed, std::set<std::size_t>& alone,
+                 const PlanOptions& options) {
+  return StageMaker(path, entry, end_speed, alone, options).run();
 }
 
 }  // namespace kcs::planning

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/planning/cornering.h"
+#include "server/planning/entry.h"
 #include "server/planning/leg.h"
 #include "server/planning/stretch.h"
 
@@ -22,7 +23,21 @@ struct Stage {
   bool ends_on_joint = true;         // it ends where that leg does
 };
 
-// In the order of the path. Legs in `alone` begin no stretch; those with which none was found are added to it.
-std::vector<Stage> stages_of(const LegPath& path, std::set<std::size_t>& alone, const PlanOptions& options);
+// What a corner needs of the ways before and after it, so that the tool may be at the feed beyond, mm; as far as they
+// reach, with those of the corners around it.
+struct CornerNeeds {
+  double before = 0, after = 0;
+  bool smooth = false;  // it is no stop
+};
+
+struct Stages {
+  std::vector<Stage> stages;       // in the order of the path
+  std::vector<CornerNeeds> needs;  // of each joint but the last
+};
+
+// end_speed: at the end of the path, at most, mm/s. Legs in `alone` begin no stretch; those with which none was found
+// are added to it. A stretch that has begun already goes on; if no way is found, it has failed.
+Stages stages_of(const LegPath& path, const Entry& entry, double end_speed, std::set<std::size_t>& alone,
+                 const PlanOptions& options);
 
 }  // namespace kcs::planning

@@ -2,21 +2,21 @@
 // of them.
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
+#include "server/planning/entry.h"
 #include "server/planning/options.h"
 #include "server/planning/smooth_motion.h"
 #include "server/planning/stretch_path.h"
 
 namespace kcs::planning {
 
-// The motion is looked for window by window: each goes on from the one before it, and looks ahead as far as the tool
-// needs to stop, and more. So neither time nor what a failure spoils grows with the length of the stretch.
 class Stretch {
  public:
-  // `path` and `options` must outlive the stretch. Its legs have tolerances of more than 0. at_most: the speeds at its
-  // ends, 0 for rest.
-  Stretch(const LegPath& path, const LegRange& range, const PlanOptions& options, const EndSpeeds& at_most);
+  // `path` and `begun` must outlive the stretch. Its legs have tolerances of more than 0. at_most: the speeds
+  // at its ends, 0 for rest. begun: what is settled of it, or null.
+  Stretch(const LegPath& path, const LegRange& range, const PlanOptions& options, const EndSpeeds& at_most,
+          const BegunStretch* begun = nullptr);
 
   // No motion that keeps everything was found: the stretch has to be travelled in another way.
   bool failed() const { return spline_.points.empty(); }
@@ -25,29 +25,30 @@ class Stretch {
   EndSpeeds plan(const EndSpeeds& at_most);
 
   const StretchPath& path() const { return path_; }
+  // With what was settled before.
   const TimeSpline& spline() const { return spline_; }
   EndSpeeds speeds() const { return speeds_; }
+  // The first piece that was not settled before.
+  std::size_t first_piece() const { return begun_ == nullptr ? 0 : begun_->settled.pieces(); }
+  // The first corner, of those inside the stretch, that has no record yet.
+  std::size_t first_corner() const { return begun_ == nullptr ? 0 : begun_->unreported; }
   // A piece of the spline, with the segments of the whole path.
   motion::Phase phase(std::size_t piece) const;
 
+  // The stretch from its first so many points on, for a part of the path that begins with its leg `leg`.
+  BegunStretch go_on(std::size_t points, std::size_t leg) const;
+
  private:
   void search(const EndSpeeds& at_most);
-  double stopping_way(double feed) const;
-  double beyond(double from, double steps, double least) const;
-  double ahead(double from, double share) const;
-  bool search_window(double until, double to, const EndSpeeds& at_most, bool last);
-  void follow_tail();
-  MotionDraft draft(const MotionRange& range, double step) const;
-  void commit(const SmoothMotion& motion, double until, bool last);
+  MotionDraft draft(const MotionRange& range) const;
 
-  const PlanOptions& options_;
+  AxisLimits limits_;
+  const BegunStretch* begun_;
   StretchPath path_;
-  double step_;        // s
-  TimeSpline spline_;  // what is settled
+  double step_;  // s
+  TimeSpline spline_;
+  FitWeights weights_;  // of what was found, from the last three settled points on
   EndSpeeds speeds_;
-  double work_left_ = 0;  // rounds times points
-  TimeSpline tail_;       // what was found beyond it, to a stop: from the last three settled points on
-  FitWeights tail_weights_;
 };
 
 }  // namespace kcs::planning

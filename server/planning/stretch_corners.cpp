@@ -111,33 +111,46 @@ class Passing {
   std::size_t first_ = 0;  // piece
 };
 
-double time_at_feed(const Stretch& stretch) {
+double time_at_feed(const Stretch& stretch, std::size_t from, std::size_t to) {
   const TimeSpline& spline = stretch.spline();
   double time = 0;
-  for (std::size_t j = 0; j < spline.pieces(); ++j) {
+  for (std::size_t j = from; j < to; ++j) {
     const double feed = stretch.path().feed_between(spline.ways[j], spline.ways[j + 3]);
     if (spline.velocity(j + 1).norm() >= kAtFeed * feed) time += spline.step;
   }
   return time;
 }
 
+double middle_of(const StretchPath& path, std::size_t leg) { return (path.way(leg) + path.way(leg + 1)) / 2; }
+
 }  // namespace
 
-StretchTimes add_corners(const Stretch& stretch, const std::vector<Joint>& joints, std::size_t first_leg,
-                         const PlanOptions& options, std::vector<Corner>& corners) {
+std::size_t first_unreported(const Stretch& stretch, std::size_t points) {
+  const StretchPath& path = stretch.path();
+  const std::size_t corners = path.legs().size() - 1;
+  if (points == 0) return stretch.first_corner();
+  if (points == stretch.spline().points.size()) return corners;
+  std::size_t corner = stretch.first_corner();
+  while (corner < corners && middle_of(path, corner + 1) <= stretch.spline().ways[points - 2]) ++corner;
+  return corner;
+}
+
+StretchTimes add_corners(const Stretch& stretch, std::size_t from, std::size_t to, const std::vector<Joint>& joints,
+                         std::size_t first_leg, const PlanOptions& options, std::vector<Corner>& corners) {
   const StretchPath& path = stretch.path();
   const auto legs = path.legs();
-  const auto middle = [&](std::size_t leg) { return (path.way(leg) + path.way(leg + 1)) / 2; };
   const auto at_feed = [&](std::size_t leg) { return (path.way(leg + 1) - path.way(leg)) / legs[leg].feed; };
+  const std::size_t first = first_unreported(stretch, from), end = first_unreported(stretch, to);
   Walk walk(stretch.spline());
   Passing passing(stretch);
-  double before = walk.time_at(middle(0));
-  StretchTimes result{.entry_lost = before - at_feed(0) / 2, .at_feed = time_at_feed(stretch)};
-  for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
+  double before = walk.time_at(middle_of(path, first));
+  StretchTimes result{.at_feed = time_at_feed(stretch, from == 0 ? stretch.first_piece() : from - 3, to - 3)};
+  if (from == 0 && stretch.first_piece() == 0) result.entry_lost = before - at_feed(0) / 2;
+  for (std::size_t i = first; i < end; ++i) {
     const CornerGeometry geometry = corner_geometry(legs[i], legs[i + 1], options);
     const Vector& point = path.corners()[i + 1];
     const auto [at, contour_error] = passing.to_end_of(i);
-    const double after = walk.time_at(middle(i + 1));
+    const double after = walk.time_at(middle_of(path, i + 1));
     corners.push_back({.segment = legs[i].segments.last,
                        .line = joints[first_leg + i].line,
                        .point = legs[i].end,
@@ -149,7 +162,9 @@ StretchTimes add_corners(const Stretch& stretch, const std::vector<Joint>& joint
                        .time_lost = after - before - at_feed(i) / 2 - at_feed(i + 1) / 2});
     before = after;
   }
-  result.exit_lost = stretch.spline().duration() - before - at_feed(legs.size() - 1) / 2;
+  if (end + 1 == legs.size()) {
+    result.exit_lost = stretch.spline().duration() - before - at_feed(legs.size() - 1) / 2;
+  }
   return result;
 }
 

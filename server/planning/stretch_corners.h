@@ -10,14 +10,19 @@ namespace kcs::planning {
 
 // What a stretch loses against the feed before its first corner and after its last one, s, and its time at the feed, s.
 struct StretchTimes {
-  double entry_lost = 0;
-  double exit_lost = 0;
+  double entry_lost = 0;  // if it begins in this part
+  double exit_lost = 0;   // if it ends in this part
   double at_feed = 0;
 };
 
-// Adds a record for each corner inside the stretch to `corners`: where the tool is nearest to it. What is lost counts
-// from the middle of one leg to the middle of the next. joints: those of the whole path; first_leg: of the stretch.
-StretchTimes add_corners(const Stretch& stretch, const std::vector<Joint>& joints, std::size_t first_leg,
-                         const PlanOptions& options, std::vector<Corner>& corners);
+// The first corner inside the stretch that has no record yet when its first so many points are settled (0: no more than
+// were settled before): the tool has not come to the middle of the leg after it.
+std::size_t first_unreported(const Stretch& stretch, std::size_t points);
+
+// Appends a record of each corner that has none when the first `from` points are settled, but has one when the first
+// `to` points are: where the tool is nearest to it. What is lost counts from the middle of one leg to the middle of the
+// next. joints: those of the whole path; first_leg: of the stretch.
+StretchTimes add_corners(const Stretch& stretch, std::size_t from, std::size_t to, const std::vector<Joint>& joints,
+                         std::size_t first_leg, const PlanOptions& options, std::vector<Corner>& corners);
 
 }  // namespace kcs::planning

@@ -18,6 +18,7 @@ constexpr double kDetour = 3;
 
 StretchPath::StretchPath(const LegPath& path, const LegRange& range, const PlanOptions& options)
     : legs_(std::span(path.legs).subspan(range.first, range.last - range.first + 1)),
+      skipped_(range.skipped),
       ends_{0},
       corners_{range.skipped * legs_.front().direction},
       tolerance_(legs_.front().tolerance) {

@@ -38,6 +38,9 @@ class StretchPath {
   // The way from the start of the stretch to the start of a leg, mm; leg ≤ legs().size().
   double way(std::size_t leg) const { return ends_[leg]; }
 
+  // The way to where a leg begins on the whole path, mm; less than zero if the stretch begins inside it.
+  double start_of(std::size_t leg) const { return leg == 0 ? -skipped_ : ends_[leg]; }
+
   // How near the motion must come to the end of a leg that is not the last, mm.
   double reach(std::size_t leg) const { return reaches_[leg]; }
 
@@ -68,6 +71,7 @@ class StretchPath {
   double distance(const Vector& point, std::size_t leg, double& along) const;
 
   std::span<const Leg> legs_;
+  double skipped_;
   std::vector<double> ends_;  // from zero; entry i + 1 is where leg i ends
   std::vector<Vector> corners_;
   std::vector<double> reaches_;

@@ -23,10 +23,18 @@ struct Segment {
 // What is nearer than this to the point before it, mm, does not move: no machine resolves a picometre.
 inline constexpr double kNoLength = 1e-9;
 
-// A tool path: the tool starts at rest at `start` and comes to rest at the end of the last segment.
-// Segments of no length are allowed; their stops and dwells count, but they are not counted as segments.
-struct Toolpath {
+// How a tool path begins and ends.
+struct PathEnds {
   Vector start = Vector::Zero();  // mm
+  // How the tool moves there, along the first segment that moves: at rest unless said, or it goes on from another
+  // motion.
+  double start_speed = 0;         // mm/s, ≥ 0
+  double start_acceleration = 0;  // mm/s²
+  double end_speed = 0;           // mm/s, ≥ 0: at the end, along the last segment; 0: rest
+};
+
+// Segments of no length are allowed; their stops and dwells count, but they are not counted as segments.
+struct Toolpath : PathEnds {
   std::vector<Segment> segments;
 
   const Vector& start_of(std::size_t segment) const { return segment == 0 ? start : segments[segment - 1].end; }

@@ -63,9 +63,17 @@ void check_segment(Validation& validation, const Segment& segment, std::size_t i
   validation.in_range(field("dwell"), segment.dwell, 0, range::kMaxDwell, "s");
 }
 
+void check_ends(Validation& validation, const PathEnds& ends, std::size_t axes) {
+  check_point(validation, "path, start", ends.start, axes);
+  validation.in_range([] { return "path, start_speed"; }, ends.start_speed, 0, range::kMaxFeed, "mm/s");
+  validation.in_range([] { return "path, start_acceleration"; }, ends.start_acceleration, -range::kMaxAcceleration,
+                      range::kMaxAcceleration, "mm/s²");
+  validation.in_range([] { return "path, end_speed"; }, ends.end_speed, 0, range::kMaxFeed, "mm/s");
+}
+
 }  // namespace
 
-void validate(const Toolpath& path, const PlanOptions& options) {
+void validate(const PlanOptions& options) {
   Validation validation;
   const AxisLimits& limits = options.limits;
   if (limits.axes != 2 && limits.axes != 3) {
@@ -79,10 +87,28 @@ void validate(const Toolpath& path, const PlanOptions& options) {
   if (options.strategy == CornerStrategy::kOverlapping) {
     validation.add("strategy", "is only reported, never asked for; ask for kAuto, which lets corners overlap");
   }
-  check_point(validation, "path, start", path.start, limits.axes);
+  validation.raise();
+}
+
+void validate(const PathEnds& ends, std::size_t axes) {
+  Validation validation;
+  check_ends(validation, ends, axes);
+  validation.raise();
+}
+
+void validate(const Segment& segment, std::size_t index, std::size_t axes) {
+  Validation validation;
+  check_segment(validation, segment, index, axes);
+  validation.raise();
+}
+
+void validate(const Toolpath& path, const PlanOptions& options) {
+  validate(options);
+  Validation validation;
+  check_ends(validation, path, options.limits.axes);
   if (path.segments.empty()) validation.add("path", "has no segment; give at least one move");
   for (std::size_t i = 0; i < path.segments.size() && !validation.full(); ++i) {
-    check_segment(validation, path.segments[i], i, limits.axes);
+    check_segment(validation, path.segments[i], i, options.limits.axes);
   }
   validation.raise();
 }

@@ -12,7 +12,8 @@ using planning::Vector;
 // Point 0 is the start.
 template <class Point>
 planning::Toolpath path_through(std::size_t segments, Point point) {
-  planning::Toolpath path{.start = point(0)};
+  planning::Toolpath path;
+  path.start = point(0);
   path.segments.reserve(segments);
   for (std::size_t i = 1; i <= segments; ++i) {
     path.segments.push_back({.end = point(i), .feed = kFeed, .tolerance = kTolerance});

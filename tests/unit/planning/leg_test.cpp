@@ -45,12 +45,12 @@ TEST(Legs, PassOnWhatSegmentsOfNoLengthSay) {
   Toolpath path = path_through({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 10, 0.01);
   path.segments[0].dwell = 1;
   path.segments[2].dwell = 2;
-  const LegPath legs = legs_of(path, kLimits);
-  ASSERT_EQ(legs.legs.size(), 2u);
-  EXPECT_EQ(legs.initial_dwell, 1);
-  EXPECT_TRUE(legs.joints[0].stop);
-  EXPECT_EQ(legs.joints[0].dwell, 2);
-  EXPECT_EQ(legs.feeds.size(), 2u);
+  const LegQueue queue = queue_of(path, kLimits);
+  ASSERT_EQ(queue.size(), 2u);
+  EXPECT_EQ(queue.initial_dwell(), 1);
+  EXPECT_TRUE(queue.joint(0).stop);
+  EXPECT_EQ(queue.joint(0).dwell, 2);
+  EXPECT_EQ(queue.segments(), 2u);
 }
 
 }  // namespace

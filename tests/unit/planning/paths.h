@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "server/planning/leg_queue.h"
 #include "server/planning/planner.h"
 
 namespace kcs::planning {
@@ -20,6 +21,18 @@ inline Toolpath path_through(std::initializer_list<Vector> points, double feed, 
 inline Toolpath two_legs(double degrees, double tolerance, double feed = 100) {
   const double angle = degrees * std::numbers::pi / 180;
   return path_through({{10, 0, 0}, {10 + 10 * std::cos(angle), 10 * std::sin(angle), 0}}, feed, tolerance);
+}
+
+// All of a path's legs.
+inline LegQueue queue_of(const Toolpath& path, const AxisLimits& limits) {
+  LegQueue queue(path.start, limits);
+  for (const Segment& segment : path.segments) queue.add(segment);
+  queue.finish();
+  return queue;
+}
+inline LegPath legs_of(const Toolpath& path, const AxisLimits& limits) {
+  const LegQueue queue = queue_of(path, limits);
+  return queue.first(queue.size());
 }
 
 // Two axes with the same limits; velocities that no feed of these tests reaches.

@@ -1,6 +1,7 @@
-#include "server/planning/trajectory_builder.h"
+#include "server/planning/motion_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "server/planning/leg_profile.h"
 
@@ -19,19 +20,19 @@ motion::Phase on_line(const Vector& origin, const Vector& direction, const motio
 
 }  // namespace
 
-void TrajectoryBuilder::append(motion::Phase phase, const motion::SegmentRange& segments) {
+void MotionBuilder::append(motion::Phase phase, const motion::SegmentRange& segments) {
   if (!(phase.duration > 0)) return;
   phase.start_time = time_;
   phase.segments = segments;
   time_ = phase.end_time();
-  trajectory_.append(phase);
+  phases_.push_back(phase);
 }
 
-void TrajectoryBuilder::dwell(const Vector& point, double duration, std::uint32_t segment) {
+void MotionBuilder::dwell(const Vector& point, double duration, std::uint32_t segment) {
   append({.duration = duration, .start = {.position = point}}, {segment, segment});
 }
 
-LegTimes TrajectoryBuilder::leg(const Leg& leg, const CornerMotion& entry, const CornerMotion& exit) {
+LegTimes MotionBuilder::leg(const Leg& leg, const CornerMotion& entry, const CornerMotion& exit) {
   const LegEnd from = leg_end(entry, leg), to = leg_end(exit, leg);
   const double peak = peak_speed(leg, from, to, leg.length - entry.length - exit.length);
   const auto up = motion::jlap(from.speed, from.acceleration, peak, 0, leg.acceleration, leg.jerk);
@@ -63,7 +64,7 @@ LegTimes TrajectoryBuilder::leg(const Leg& leg, const CornerMotion& entry, const
           .at_feed = peak >= leg.feed * kAtFeed ? cruise : 0};
 }
 
-void TrajectoryBuilder::corner(const CornerGeometry& geometry, const Cornering& cornering, double speed) {
+void MotionBuilder::corner(const CornerGeometry& geometry, const Cornering& cornering, double speed) {
   scratch_.clear();
   cornering.append_phases(geometry, speed, scratch_);
   for (const motion::Phase& phase : scratch_) {
@@ -71,16 +72,18 @@ void TrajectoryBuilder::corner(const CornerGeometry& geometry, const Cornering& 
   }
 }
 
-void TrajectoryBuilder::stretch(const Stretch& stretch) {
-  for (std::size_t i = 0; i < stretch.spline().pieces(); ++i) {
+void MotionBuilder::stretch(const Stretch& stretch) {
+  for (std::size_t i = stretch.first_piece(); i < stretch.spline().pieces(); ++i) {
     const motion::Phase phase = stretch.phase(i);
     append(phase, phase.segments);
   }
 }
 
-motion::Trajectory TrajectoryBuilder::finish(const Vector& end) {
-  trajectory_.set_final_state({.position = end});
-  return std::move(trajectory_);
+motion::LinearState MotionBuilder::settle(const Leg& leg, const motion::LinearState& start) {
+  const motion::LinearPhase phase{std::abs(start.acceleration) / leg.jerk,
+                                  std::copysign(leg.jerk, -start.acceleration)};
+  append(on_line(leg.start, leg.direction, start, phase), leg.segments);
+  return {phase.end(start).position, phase.end(start).velocity, 0};
 }
 
 }  // namespace kcs::planning

@@ -1,7 +1,11 @@
-// Puts legs and corners together into one trajectory.
+// Puts legs, corners and stretches together into one motion.
 #pragma once
 
-#include "server/motion/trajectory.h"
+#include <utility>
+#include <vector>
+
+#include "server/motion/jlap.h"
+#include "server/motion/phase.h"
 #include "server/planning/corner_motion.h"
 #include "server/planning/cornering.h"
 #include "server/planning/leg.h"
@@ -16,8 +20,11 @@ struct LegTimes {
   double at_feed = 0;     // time at the feed, s
 };
 
-class TrajectoryBuilder {
+class MotionBuilder {
  public:
+  // time: s, when the motion begins.
+  explicit MotionBuilder(double time) : time_(time) {}
+
   // Rests at `point` for `duration` seconds, if there is one, as part of a segment.
   void dwell(const Vector& point, double duration, std::uint32_t segment);
 
@@ -28,16 +35,22 @@ class TrajectoryBuilder {
   // Takes the corner at `speed` > 0.
   void corner(const CornerGeometry& geometry, const Cornering& cornering, double speed);
 
+  // What is not settled of it yet.
   void stretch(const Stretch& stretch);
 
-  motion::Trajectory finish(const Vector& end);
+  // From a state on the leg to one without acceleration, as fast as the leg's jerk allows; returns it.
+  motion::LinearState settle(const Leg& leg, const motion::LinearState& start);
+
+  // What there is so far, in order of time.
+  const std::vector<motion::Phase>& phases() const { return phases_; }
+  std::vector<motion::Phase> take() { return std::move(phases_); }
 
  private:
   void append(motion::Phase phase, const motion::SegmentRange& segments);
 
-  motion::Trajectory trajectory_;
+  double time_;
+  std::vector<motion::Phase> phases_;
   std::vector<motion::Phase> scratch_;
-  double time_ = 0;
 };
 
 }  // namespace kcs::planning

@@ -1,0 +1,34 @@
+// How the tool comes onto a part of a path from what is settled already.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "server/planning/corner_motion.h"
+#include "server/planning/penalized_fit.h"
+#include "server/planning/time_spline.h"
+
+namespace kcs::planning {
+
+// A stretch that has begun in the part before.
+struct BegunStretch {
+  // What is settled of it, from before the middle of the part's first leg on. Ways count from the start of that leg,
+  // points are where they are on the machine.
+  TimeSpline settled;
+  // Where the search may begin: what was found beyond it, from the last three settled points on.
+  std::vector<double> ways;
+  FitWeights weights;
+  std::size_t joint = 0;       // of the part: the next one that the tool passes
+  std::size_t unreported = 0;  // of the part: the first one whose corner has no record yet
+};
+
+struct Entry {
+  double taken = 0;     // of the first leg, by what came before, mm
+  CornerMotion motion;  // out of the corner before, or along the leg; none: from rest
+  double need = 0;      // what the corner before needs of the first leg, mm, so that the tool may be at the feed beyond
+  bool rests = true;    // the tool rests where the part begins
+  std::optional<BegunStretch> begun;  // in its middle; nothing else counts then
+};
+
+}  // namespace kcs::planning

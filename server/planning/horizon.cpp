@@ -1,0 +1,60 @@
+#include "server/planning/horizon.h"
+
+#include "server/motion/jlap.h"
+#include "server/planning/range.h"
+#include "server/planning/smooth_motion.h"
+
+namespace kcs::planning {
+namespace {
+
+// What is settled at a time: so many steps of time (smooth_motion.h) at the feed, and legs, at least. Both make
+// planning wait for the path, and the second keeps short programs whole.
+constexpr double kSettledSteps = 300, kSettledLegs = 64;
+// What is looked at beyond it: so many steps and legs at least, and as often as far as the tool needs to stop.
+constexpr double kAheadSteps = 150, kAheadLegs = 8, kAheadStops = 3;
+// Where legs are so short that these would be more, this is enough of them.
+constexpr double kMostLegs = 20'000;
+
+// From the feed, along the axes' slowest direction, mm.
+double stopping_way(double feed, const motion::AxisLimits& limits) {
+  const auto axes = static_cast<Eigen::Index>(limits.axes);
+  return motion::ramp_to_peak(0, 0, feed, limits.acceleration.head(axes).minCoeff(), limits.jerk.head(axes).minCoeff())
+      .distance;
+}
+
+}  // namespace
+
+bool Horizon::in_sight(const LegQueue& queue) {
+  while (!beyond()) {
+    if (legs_ == queue.size()) {
+      if (queue.finished() && !ahead_) until_ = legs_ - 1;
+      return queue.finished();
+    }
+    see(queue.leg(legs_));
+  }
+  return legs_ < queue.size() || queue.finished();
+}
+
+void Horizon::see(const Leg& leg) {
+  ++legs_;
+  way_ += leg.length;
+  const double tolerance = leg.tolerance > 0 ? leg.tolerance : range::kMaxTolerance;
+  steps_ += leg.length / (leg.feed * step_of_time(tolerance, limits_));
+  if (ahead_) return;
+  const auto seen = static_cast<double>(legs_);
+  ahead_ = (steps_ >= share_ * kSettledSteps && seen >= share_ * kSettledLegs) || seen >= share_ * kMostLegs;
+  if (!ahead_) return;
+  until_ = legs_ - 1;
+  steps_ = way_ = 0;
+  stopping_way_ = stopping_way(leg.feed, limits_);
+}
+
+bool Horizon::beyond() const {
+  if (!ahead_) return false;
+  const auto seen = static_cast<double>(legs_ - until_ - 1);
+  return (steps_ >= share_ * kAheadSteps && seen >= share_ * kAheadLegs &&
+          way_ >= share_ * kAheadStops * stopping_way_) ||
+         seen >= share_ * kMostLegs;
+}
+
+}  // namespace kcs::planning

@@ -1,0 +1,39 @@
+// How far a path must be known so that its first part can be settled.
+#pragma once
+
+#include <cstddef>
+
+#include "server/motion/limits.h"
+#include "server/planning/leg_queue.h"
+
+namespace kcs::planning {
+
+// Counted in the time that the tool would take at the feed, and in legs: first what may be settled, then what is looked
+// at beyond it. Looks at each leg once while the path arrives.
+class Horizon {
+ public:
+  // share: of the usual distance, > 0.
+  explicit Horizon(const motion::AxisLimits& limits, double share = 1) : limits_(limits), share_(share) {}
+
+  // Whether the path is known far enough: to the horizon, or to its end. Legs may have been added since the last call,
+  // but none dropped.
+  bool in_sight(const LegQueue& queue);
+
+  // Once in sight: the last leg that may be settled, and how many legs the plan has to see. One more is known, unless
+  // these are all.
+  std::size_t until() const { return until_; }
+  std::size_t legs() const { return legs_; }
+
+ private:
+  void see(const Leg& leg);
+  bool beyond() const;
+
+  motion::AxisLimits limits_;
+  double share_;
+  std::size_t legs_ = 0, until_ = 0;
+  bool ahead_ = false;          // what may be settled has come; the rest is looked at
+  double steps_ = 0, way_ = 0;  // steps of time; mm
+  double stopping_way_ = 0;     // mm
+};
+
+}  // namespace kcs::planning
