@@ -43,6 +43,7 @@ void LivePlanner::add(const Segment& segment) {
 Summary LivePlanner::finish() {
   legs_.finish();
   if (legs_.segments() == 0) begin();
+  if (ends_.end_speed > 0) check_end_speed();
   while (legs_.size() > 0) {
     horizon_.in_sight(legs_);
     settle_next();
@@ -63,6 +64,19 @@ Summary LivePlanner::finish() {
 
 motion::State LivePlanner::end_state() const {
   return {.position = legs_.end(), .velocity = ends_.end_speed * end_direction_};
+}
+
+void LivePlanner::check_end_speed() const {
+  const std::size_t last = legs_.size() - 1;
+  if (legs_.joint(last).stop) {
+    throw invalid("path, end_speed", "and a stop at the end of the path exclude each other; leave one out");
+  }
+  if (ends_.end_speed > legs_.leg(last).feed) {
+    throw invalid("path, end_speed",
+                  fmt::format("is {} mm/s, but on the last segment the tool may be no faster than {} "
+                              "mm/s",
+                              ends_.end_speed, legs_.leg(last).feed));
+  }
 }
 
 // Waits, or goes on from the motion before, as the start asks for it.

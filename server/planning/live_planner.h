@@ -37,6 +37,7 @@ class LivePlanner {
   motion::State end_state() const;
 
  private:
+  void check_end_speed() const;
   void begin();
   Entry entry_in_motion(const Leg& leg, MotionBuilder& builder) const;
   void settle_next();

@@ -9,8 +9,6 @@
 namespace kcs::planning {
 namespace {
 
-// Corners that turn less, as |D|, are passed near enough if the tolerance is kept.
-constexpr double kSharp = 0.3;
 // From this share on a corner is too far away.
 constexpr double kCut = 0.8;
 
@@ -22,28 +20,55 @@ constexpr double kGoesBack = 1.5;
 // A tool that goes back by less than this share of an axis' speed stands.
 constexpr double kStanding = 1e-10;
 
+// Searching aims at this share of the limits, inverted.
+constexpr double kAimLimits = 1.02;
+// The change of a step in one round; a step that is too far away from the path is stretched by this share of the
+// excess.
+constexpr double kShortest = 0.85, kLongest = 1.15;
+constexpr double kStretchAway = 0.3;
+
+double square(double value) { return value * value; }
+double cube(double value) { return value * value * value; }
+double sixth_power(double value) { return square(cube(value)); }
+
+// Of numbers near to 1: good to 1e-4 from 0.6 to 1.6.
+double cube_root(double value) { return (5 + value * (35 + value * 14)) / (14 + value * (35 + value * 5)); }
+
+// Of the differences that begin at point j − back; at the ends, of the nearest one.
+double share_at(const std::vector<double>& shares, std::size_t j, std::size_t back) {
+  return shares[std::min(std::max(j, back) - back, shares.size() - 1)];
+}
+
 // From a point to the spline around the control point k, mm: to the chords between its knots.
 double distance_near(const TimeSpline& spline, std::size_t k, const Vector& point) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t m = std::max<std::size_t>(k, 3) - 2; m <= std::min(spline.points.size() - 3, k + 3); ++m) {
-    nearest = std::min(nearest, motion::distance_to_segment(point, spline.knot(m - 1), spline.knot(m)));
+  const std::size_t first = std::max<std::size_t>(k, 3) - 3, last = std::min(spline.points.size() - 3, k + 3);
+  Vector from = spline.knot(first);
+  for (std::size_t m = first + 1; m <= last; ++m) {
+    const Vector to = spline.knot(m);
+    nearest = std::min(nearest, motion::distance_to_segment(point, from, to));
+    from = to;
   }
   return nearest;
 }
 
-double share_of(const Vector& value, const motion::AxisLimits& limits, const Vector& limit) {
-  double result = 0;
-  for (std::size_t axis = 0; axis < limits.axes; ++axis) {
-    result = std::max(result, std::abs(value[axis]) / limit[axis]);
-  }
+// What makes shares of differences of points: one over the limit, in units of the step of time; 0 for an axis that is
+// none.
+Vector per_limit(const motion::AxisLimits& limits, const Vector& limit, double step) {
+  Vector result = Vector::Zero();
+  for (std::size_t axis = 0; axis < limits.axes; ++axis) result[axis] = 1 / (limit[axis] * step);
   return result;
+}
+
+double share_of(const Vector& difference, const Vector& per_limit) {
+  return difference.cwiseProduct(per_limit).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
 
 void MotionShares::measure(const StretchPath& path, const motion::AxisLimits& limits, TimeSpline& spline,
-                           std::vector<std::size_t>& legs) {
-  measure_places(path, spline, legs);
+                           std::vector<std::size_t>& legs, bool closely) {
+  measure_places(path, spline, legs, closely);
   measure_corners(path, spline);
   largest_place_ = *std::max_element(place_.begin(), place_.end());
   measure_limits(path, limits, spline);
@@ -53,21 +78,30 @@ void MotionShares::raise(std::size_t from, std::size_t count, double share) {
   for (std::size_t i = from; i < std::min(place_.size(), from + count); ++i) place_[i] = std::max(place_[i], share);
 }
 
-void MotionShares::measure_places(const StretchPath& path, TimeSpline& spline, std::vector<std::size_t>& legs) {
+void MotionShares::measure_places(const StretchPath& path, TimeSpline& spline, std::vector<std::size_t>& legs,
+                                  bool closely) {
   const auto& points = spline.points;
   const std::size_t size = points.size();
-  place_.assign(size, 0);
+  place_.resize(size);
+  place_[0] = place_[size - 1] = 0;
+  const auto measure = [&](const Vector& point, std::size_t leg) {
+    const Projection at = path.project(point, leg);
+    return std::pair(at, at.distance / path.tolerance(at.leg));
+  };
+  double middle_before = 0;
   for (std::size_t i = 1; i + 1 < size; ++i) {
-    const Projection at = path.project(spline.knot(i - 1), legs[i]);
-    raise(i, 1, at.distance / path.legs()[at.leg].tolerance);
-    if (i < 3 || i + 3 >= size) continue;
-    spline.ways[i] = std::clamp(at.way, spline.ways[i - 1], std::max(spline.ways[i - 1], spline.ways[size - 3]));
-    legs[i] = at.leg;
-  }
-  for (std::size_t i = 1; i + 2 < size; ++i) {
-    const Vector middle = (points[i - 1] + 23 * points[i] + 23 * points[i + 1] + points[i + 2]) / 48;
-    const Projection at = path.project(middle, legs[i]);
-    raise(i, 2, at.distance / path.legs()[at.leg].tolerance);
+    const auto [at, share] = measure((1.0 / 6) * (points[i - 1] + points[i + 1]) + (4.0 / 6) * points[i], legs[i]);
+    if (i >= 3 && i + 3 < size) {
+      spline.ways[i] = std::clamp(at.way, spline.ways[i - 1], std::max(spline.ways[i - 1], spline.ways[size - 3]));
+      legs[i] = at.leg;
+    }
+    double middle = 0;
+    if (closely && i + 2 < size) {
+      const Vector point = (1.0 / 48) * (points[i - 1] + points[i + 2]) + (23.0 / 48) * (points[i] + points[i + 1]);
+      middle = measure(point, legs[i]).second;
+    }
+    place_[i] = std::max({share, middle_before, middle});
+    middle_before = middle;
   }
 }
 
@@ -78,7 +112,7 @@ void MotionShares::measure_corners(const StretchPath& path, TimeSpline& spline) 
   const auto& ways = spline.ways;
   std::size_t k = 1;
   for (std::size_t i = path.leg_at(ways[1]); i + 1 < legs.size() && path.way(i + 1) < ways[ways.size() - 2]; ++i) {
-    if ((legs[i + 1].direction - legs[i].direction).squaredNorm() < kSharp * kSharp) continue;
+    if (!path.may_be_missed(i)) continue;
     while (k + 3 < ways.size() && ways[k + 1] < path.way(i + 1)) ++k;
     const double share = distance_near(spline, k, path.corners()[i + 1]) / path.reach(i);
     raise(k - 1, 3, share);
@@ -89,22 +123,26 @@ void MotionShares::measure_corners(const StretchPath& path, TimeSpline& spline) 
 }
 
 void MotionShares::measure_limits(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline) {
-  const std::size_t size = spline.points.size();
+  const auto& points = spline.points;
+  const std::size_t size = points.size();
   speed_.resize(size - 1);
   acceleration_.resize(size - 2);
   jerk_.resize(size - 3);
-  Vector velocity_before = Vector::Zero(), acceleration_before = Vector::Zero();
+  const double step = spline.step;
+  const Vector per_velocity = per_limit(limits, limits.velocity, step),
+               per_acceleration = per_limit(limits, limits.acceleration, step * step),
+               per_jerk = per_limit(limits, limits.jerk, step * step * step);
+  Vector first_before = Vector::Zero(), second_before = Vector::Zero();
   for (std::size_t j = 0; j + 1 < size; ++j) {
-    const Vector velocity = spline.velocity(j);
+    const Vector first = points[j + 1] - points[j], second = first - first_before;
     // Of all pieces that it is part of.
     const double feed =
         path.feed_between(spline.ways[std::max<std::size_t>(j, 2) - 2], spline.ways[std::min(size - 1, j + 3)]);
-    speed_[j] = std::max(velocity.norm() / feed, share_of(velocity, limits, limits.velocity));
-    const Vector acceleration = (velocity - velocity_before) / spline.step;
-    if (j > 0) acceleration_[j - 1] = share_of(acceleration, limits, limits.acceleration);
-    if (j > 1) jerk_[j - 2] = share_of((acceleration - acceleration_before) / spline.step, limits, limits.jerk);
-    velocity_before = velocity;
-    acceleration_before = acceleration;
+    speed_[j] = std::max(first.norm() / (feed * step), share_of(first, per_velocity));
+    if (j > 0) acceleration_[j - 1] = share_of(second, per_acceleration);
+    if (j > 1) jerk_[j - 2] = share_of(second - second_before, per_jerk);
+    first_before = first;
+    second_before = second;
   }
 }
 
@@ -113,6 +151,35 @@ double MotionShares::slower() const {
     return *std::max_element(shares.begin(), shares.end());
   };
   return std::max({largest(speed_), std::sqrt(largest(acceleration_)), std::cbrt(largest(jerk_))});
+}
+
+// A step that takes x times as long has 1/x of the speed, 1/x² of the acceleration and 1/x³ of the jerk: what they ask
+// for is compared by its sixth power, so that there is one root to take.
+const std::vector<double>& MotionShares::paces(bool finishing, bool urgent) {
+  const std::size_t steps = speed_.size();
+  const auto power = [urgent](double pace) { return urgent ? sixth_power(pace) : square(sixth_power(pace)); };
+  const double least = power(finishing ? 1 : kShortest), most = power(kLongest);
+  wishes_.resize(steps + 4);  // two more at each end
+  for (std::size_t j = 0; j < steps; ++j) {
+    double wish = std::max(
+        {sixth_power(kAimSpeed * speed_[j]),
+         cube(kAimLimits * std::max(share_at(acceleration_, j, 1), share_at(acceleration_, j, 0))),
+         square(kAimLimits * std::max({share_at(jerk_, j, 2), share_at(jerk_, j, 1), share_at(jerk_, j, 0)}))});
+    if (finishing) {
+      const double away = std::max({place_[j], place_[j + 1], 1.0}) - 1;
+      wish = std::max(wish, sixth_power(1 + kStretchAway * away));
+    }
+    const double root = std::sqrt(std::min(std::max(wish, least), most));
+    wishes_[j + 2] = cube_root(urgent ? root : std::sqrt(root));
+  }
+  wishes_[0] = wishes_[1] = wishes_[2];
+  wishes_[steps + 2] = wishes_[steps + 3] = wishes_[steps + 1];
+  paces_.resize(steps);
+  for (std::size_t i = 0; i < steps; ++i) {
+    const auto* wish = &wishes_[i];
+    paces_[i] = (wish[0] + 3 * wish[1] + 4 * wish[2] + 3 * wish[3] + wish[4]) * (1.0 / 12);
+  }
+  return paces_;
 }
 
 bool MotionShares::verify_places(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline) {

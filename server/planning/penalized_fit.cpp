@@ -5,65 +5,60 @@
 namespace kcs::planning {
 namespace {
 
-// Adds weight times the square of a difference that begins at row `first`.
-template <std::size_t size>
-void add(std::array<double, 4>* rows, double weight, const std::array<double, size>& difference) {
-  for (std::size_t a = 0; a < size; ++a) {
-    for (std::size_t b = 0; b <= a; ++b) rows[a][a - b] += weight * difference[a] * difference[b];
-  }
-}
+// What once moved an axis dies away by a share with every point, until numbers are so small that processors become
+// slow. Long before that, they are nothing.
+constexpr double kNothing = 1e-100;
+
+Vector without_traces(const Vector& value) { return (value.array().abs() < kNothing).select(0, value); }
 
 }  // namespace
 
-void PenalizedFit::assemble(const FitWeights& weights) {
-  constexpr std::array<double, 3> kSecond = {1, -2, 1};
-  constexpr std::array<double, 4> kThird = {-1, 3, -3, 1};
-  const std::size_t size = weights.place.size();
-  factor_.assign(size, {});
+// Row by row: what the row has before its diagonal, and the first substitution. A row waits for the inverse of the one
+// before it; everything else that it needs is known by then.
+void PenalizedFit::substitute_forward(const FitWeights& weights, std::span<const Vector> data,
+                                      std::vector<Vector>& result) {
+  const std::size_t size = data.size();
+  // Of the rows one, two and three before.
+  Row one, two, three;
+  double entry11 = 0, entry12 = 0, entry21 = 0;   // their entries times their diagonals: 1 of one and two, 2 of one
+  double a1 = 0, a2 = 0, j1 = 0, j2 = 0, j3 = 0;  // their weights
+  Vector v1 = Vector::Zero(), v2 = v1, v3 = v1;
   for (std::size_t i = 0; i < size; ++i) {
-    factor_[i][0] += weights.place[i];
-    if (i + 2 < size) add(&factor_[i], weights.acceleration[i], kSecond);
-    if (i + 3 < size) add(&factor_[i], weights.jerk[i], kThird);
+    const double a0 = i + 2 < size ? weights.acceleration[i] : 0, j0 = i + 3 < size ? weights.jerk[i] : 0;
+    const double entry3 = -j3;
+    const double l3 = entry3 * three.inverse;
+    const double entry2 = a2 + 3 * (j2 + j3) - l3 * entry12;
+    const double l2 = entry2 * two.inverse;
+    const double entry1 = -2 * (a1 + a2) - 3 * (j1 + j3) - 9 * j2 - l3 * entry21 - l2 * entry11;
+    const double l1 = entry1 * one.inverse;
+    const double diagonal = weights.place[i] + a0 + 4 * a1 + a2 + j0 + 9 * (j1 + j2) + j3;
+    const Row row{1 / (diagonal - l3 * entry3 - l2 * entry2 - l1 * entry1), l1, l2, l3};
+    const Vector value = without_traces(weights.place[i] * data[i] - l3 * v3 - l2 * v2 - l1 * v1);
+    rows_[i] = row;
+    result[i] = value;
+    three = two, two = one, one = row;
+    entry12 = entry11, entry11 = entry1, entry21 = entry2;
+    a2 = a1, a1 = a0, j3 = j2, j2 = j1, j1 = j0;
+    v3 = v2, v2 = v1, v1 = value;
   }
 }
 
-// The first rows have zeros where there is no row before them; so there is nothing to ask.
-void PenalizedFit::factorize() {
-  constexpr std::array<double, 4> kNone = {};
-  std::array<double, 4> one = kNone, two = kNone, three = kNone;  // rows before, with the inverse of their diagonals
-  double d1 = 0, d2 = 0, d3 = 0;                                  // their diagonals
-  for (auto& row : factor_) {
-    const double l3 = row[3] * three[0];
-    const double l2 = (row[2] - l3 * d3 * two[1]) * two[0];
-    const double l1 = (row[1] - l3 * d3 * one[2] - l2 * d2 * one[1]) * one[0];
-    const double diagonal = row[0] - l3 * l3 * d3 - l2 * l2 * d2 - l1 * l1 * d1;
-    row = {1 / diagonal, l1, l2, l3};
-    three = two, two = one, one = row;
-    d3 = d2, d2 = d1, d1 = diagonal;
+void PenalizedFit::substitute_backward(std::vector<Vector>& result) const {
+  Row one, two, three;  // rows after
+  Vector v1 = Vector::Zero(), v2 = v1, v3 = v1;
+  for (std::size_t i = result.size(); i-- > 0;) {
+    const Vector value = without_traces(rows_[i].inverse * result[i] - three.l3 * v3 - two.l2 * v2 - one.l1 * v1);
+    result[i] = value;
+    three = two, two = one, one = rows_[i];
+    v3 = v2, v2 = v1, v1 = value;
   }
 }
 
 void PenalizedFit::solve(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result) {
-  assemble(weights);
-  factorize();
-  const std::size_t size = data.size();
-  result.resize(size);
-  Vector one = Vector::Zero(), two = one, three = one;
-  for (std::size_t i = 0; i < size; ++i) {
-    const auto& row = factor_[i];
-    const Vector rest = weights.place[i] * data[i] - row[1] * one - row[2] * two - row[3] * three;
-    result[i] = rest;
-    three = two, two = one, one = rest;
-  }
-  one = two = three = Vector::Zero();
-  for (std::size_t i = size; i-- > 0;) {
-    Vector value = result[i] * factor_[i][0];
-    if (i + 1 < size) value -= factor_[i + 1][1] * one;
-    if (i + 2 < size) value -= factor_[i + 2][2] * two;
-    if (i + 3 < size) value -= factor_[i + 3][3] * three;
-    result[i] = value;
-    three = two, two = one, one = value;
-  }
+  rows_.resize(data.size());
+  result.resize(data.size());
+  substitute_forward(weights, data, result);
+  substitute_backward(result);
 }
 
 }  // namespace kcs::planning

@@ -1,7 +1,6 @@
 // Points at equal steps of time that are near to given ones and change their motion little.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -27,11 +26,15 @@ class PenalizedFit {
   void solve(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result);
 
  private:
-  void assemble(const FitWeights& weights);
-  void factorize();
+  // A row of the factors: the inverse of its diagonal, and its entries 1, 2 and 3 before the diagonal.
+  struct Row {
+    double inverse = 0, l1 = 0, l2 = 0, l3 = 0;
+  };
 
-  // Row i: its diagonal (once factorized, its inverse), then its entries 1, 2 and 3 before the diagonal.
-  std::vector<std::array<double, 4>> factor_;
+  void substitute_forward(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result);
+  void substitute_backward(std::vector<Vector>& result) const;
+
+  std::vector<Row> rows_;
 };
 
 }  // namespace kcs::planning

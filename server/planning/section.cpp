@@ -11,7 +11,7 @@ namespace {
 // What another plan takes over of a stretch: at least so many points. A shorter rest is left no freedom.
 constexpr std::ptrdiff_t kFewestLeft = 60;
 
-// A stretch is followed this share at a time, and so many points at least, or else to its end.
+// A section is followed by this share at a time, a stretch by so many points at least, or else to its end.
 constexpr std::size_t kFollowed = 3, kFewest = 8;
 
 }  // namespace
@@ -157,18 +157,20 @@ std::optional<Section::Cut> Section::cut_inside(std::size_t stage, std::size_t l
 }
 
 Section::Cut Section::cut_after(const Cut& cut) const {
-  std::size_t i = cut.stage;
-  while (i < corners_.stages.size() && !ends_well(corners_.stages[i])) ++i;
-  if (i == corners_.stages.size()) return end();
-  if (corners_.stages[i].stretch) {
-    const Stretch& stretch = *corners_.stages[i].stretch;
-    const auto& ways = stretch.spline().ways;
-    const std::size_t from = i == cut.stage && cut.points > 0 ? cut.points : stretch.first_piece() + 3;
-    const std::size_t ahead = ways.size() - 3 - from, points = from + ahead / kFollowed;
-    const bool on_last_leg = stretch.path().leg_at(ways[points - 1]) + 1 == stretch.path().legs().size();
-    if (ahead / kFollowed >= kFewest && !on_last_leg) return {i, points};
+  const std::size_t stages = corners_.stages.size();
+  std::size_t last = cut.stage;  // of those that are followed
+  if (cut.points == 0) {
+    last += (stages - cut.stage) / kFollowed;
+    while (last < stages && !ends_well(corners_.stages[last])) ++last;
+    if (last >= stages) return end();
   }
-  return {i + 1, 0};
+  if (!corners_.stages[last].stretch) return {last + 1, 0};
+  const Stretch& stretch = *corners_.stages[last].stretch;
+  const auto& ways = stretch.spline().ways;
+  const std::size_t from = cut.points > 0 ? cut.points : stretch.first_piece() + 3;
+  const std::size_t followed = (ways.size() - 3 - from) / kFollowed, points = from + followed;
+  const bool on_last_leg = stretch.path().leg_at(ways[points - 1]) + 1 == stretch.path().legs().size();
+  return followed < kFewest || on_last_leg ? Cut{last + 1, 0} : Cut{last, points};
 }
 
 Section::Rest Section::rest_from(const Cut& cut) const {

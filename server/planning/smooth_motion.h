@@ -1,6 +1,7 @@
 // One smooth motion through many corners at once, whose transitions overlap.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -42,7 +43,7 @@ double step_of_time(double tolerance, const motion::AxisLimits& limits);
 // jerk; time is stretched where an axis is beyond a limit and shortened where none is near to one. What presses on a
 // limit or on the tolerance again and again gets more and more weight.
 // The idea is that of overlapping transitions: a spline of time is a sum of equal pulses of velocity, and so what the
-// axes do is the sum of what all corners near by ask for.
+// axes do is the sum of what all corners near by ask for. Most rounds are done with steps of twice the length.
 // Linear in the duration of the motion. Deterministic.
 class SmoothMotion {
  public:
@@ -63,14 +64,15 @@ class SmoothMotion {
   const FitWeights& weights() const { return weights_; }
 
  private:
+  void change_step(double step);
+  void find_start();
   void hold_ends();
   void fit();
   bool accept();
   void slow_down_evenly();
   void reweigh();
   void retime();
-  void set_paces();
-  void resample_ways(std::size_t count, double scale);
+  void resample_ways(const std::vector<double>& paces, std::size_t count, double scale);
   void resample_weights();
 
   const StretchPath& path_;
@@ -82,13 +84,16 @@ class SmoothMotion {
   FitWeights weights_;
   PenalizedFit fit_;
   MotionShares shares_;
+  // The first three points and their ways, if the motion goes on from another one.
+  std::array<Vector, 3> start_points_;
+  std::array<double, 3> start_ways_ = {};
   double work_ = 0;
   bool finishing_ = false, urgent_ = false;
+  double missing_ = 0;  // steps that were asked for while finishing, and not given yet
   // Scratch, kept from round to round.
-  std::vector<std::size_t> legs_;       // of the ways
-  std::vector<Vector> data_;            // on the path
-  std::vector<double> drawn_to_;        // the ways of data_
-  std::vector<double> wishes_, paces_;  // of each step: how much longer it should take
+  std::vector<std::size_t> legs_;  // of the ways
+  std::vector<Vector> data_;       // on the path
+  std::vector<double> drawn_to_;   // the ways of data_
   std::vector<double> old_ways_, old_times_;
   FitWeights old_weights_;
 };

@@ -59,17 +59,18 @@ struct Nearest {
 // Looks at the pieces that pass from one leg to another. Legs must not fall from call to call.
 class Passing {
  public:
-  explicit Passing(const Stretch& stretch) : stretch_(stretch) {}
+  // pieces: how many of them are settled.
+  Passing(const Stretch& stretch, std::size_t pieces) : stretch_(stretch), pieces_(pieces) {}
 
   // Where the motion is nearest to the end of a leg.
   Nearest to_end_of(std::size_t leg) {
     const TimeSpline& spline = stretch_.spline();
     const Vector& point = stretch_.path().corners()[leg + 1];
-    while (first_ + 1 < spline.pieces() && legs_of(first_).second <= leg) ++first_;
+    while (first_ + 1 < pieces_ && legs_of(first_).second <= leg) ++first_;
     Nearest best;
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = first_;
-    for (std::size_t j = first_; j < spline.pieces() && legs_of(j).first <= leg; ++j) {
+    for (std::size_t j = first_; j < pieces_ && legs_of(j).first <= leg; ++j) {
       const double distance =
           std::min((spline.knot(j) - point).squaredNorm(), (spline.knot(j + 1) - point).squaredNorm());
       if (distance >= least) continue;
@@ -78,8 +79,7 @@ class Passing {
     }
     least = std::numeric_limits<double>::infinity();
     // A knot may be the nearest of all, but a place in the piece on either side of it nearer still.
-    for (std::size_t j = std::max(first_, nearest > 0 ? nearest - 1 : 0); j <= nearest + 1 && j < spline.pieces();
-         ++j) {
+    for (std::size_t j = std::max(first_, nearest > 0 ? nearest - 1 : 0); j <= nearest + 1 && j < pieces_; ++j) {
       if (legs_of(j).first > leg) break;
       const motion::State state = nearest_in(spline.phase(j, Vector::Zero()), point);
       const double distance = (state.position - point).squaredNorm();
@@ -108,6 +108,7 @@ class Passing {
   }
 
   const Stretch& stretch_;
+  std::size_t pieces_;
   std::size_t first_ = 0;  // piece
 };
 
@@ -142,7 +143,7 @@ StretchTimes add_corners(const Stretch& stretch, std::size_t from, std::size_t t
   const auto at_feed = [&](std::size_t leg) { return (path.way(leg + 1) - path.way(leg)) / legs[leg].feed; };
   const std::size_t first = first_unreported(stretch, from), end = first_unreported(stretch, to);
   Walk walk(stretch.spline());
-  Passing passing(stretch);
+  Passing passing(stretch, to - 3);
   double before = walk.time_at(middle_of(path, first));
   StretchTimes result{.at_feed = time_at_feed(stretch, from == 0 ? stretch.first_piece() : from - 3, to - 3)};
   if (from == 0 && stretch.first_piece() == 0) result.entry_lost = before - at_feed(0) / 2;

@@ -14,6 +14,14 @@ constexpr double kAround = 6;
 // Another place may be nearer although the path leads away at first: it is looked for so many tolerances away.
 constexpr double kDetour = 3;
 
+// Corners that turn less, as |D|, are passed near enough if the tolerance is kept.
+constexpr double kSharp = 0.3;
+
+// The square of the tangent of half the angle between two directions; +infinity if they are opposite.
+double half_tangent_square(const Vector& from, const Vector& to) {
+  return (to - from).squaredNorm() / (from + to).squaredNorm();
+}
+
 }  // namespace
 
 StretchPath::StretchPath(const LegPath& path, const LegRange& range, const PlanOptions& options)
@@ -32,6 +40,36 @@ StretchPath::StretchPath(const LegPath& path, const LegRange& range, const PlanO
   }
   ends_.back() -= range.left;
   corners_.back() -= range.left * legs_.back().direction;
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    lines_.push_back({corners_[i], legs_[i].direction, ends_[i + 1] - ends_[i], legs_[i].tolerance});
+  }
+  find_turns();
+  find_what_may_be_missed();
+}
+
+// Sharp corners, and what lies so near to one that the motion, which cuts it, leaves it out.
+void StretchPath::find_what_may_be_missed() {
+  may_be_missed_.assign(reaches_.size(), false);
+  for (std::size_t i = 0; i < reaches_.size(); ++i) {
+    if ((legs_[i + 1].direction - legs_[i].direction).squaredNorm() < kSharp * kSharp) continue;
+    const double reach = reaches_[i];
+    for (std::size_t k = i; k < reaches_.size() && ends_[k + 1] <= ends_[i + 1] + reach; ++k) may_be_missed_[k] = true;
+    for (std::size_t k = i; k-- > 0 && ends_[k + 1] >= ends_[i + 1] - reach;) may_be_missed_[k] = true;
+  }
+}
+
+void StretchPath::find_turns() {
+  const double detour = kDetour * tolerance_;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    for (std::size_t k = i + 1; k < lines_.size() && ends_[k] <= ends_[i + 1] + detour; ++k) {
+      lines_[i].turn_after =
+          std::max(lines_[i].turn_after, half_tangent_square(lines_[i].direction, lines_[k].direction));
+    }
+    for (std::size_t k = i; k-- > 0 && ends_[k + 1] >= ends_[i] - detour;) {
+      lines_[i].turn_before =
+          std::max(lines_[i].turn_before, half_tangent_square(lines_[k].direction, lines_[i].direction));
+    }
+  }
 }
 
 std::size_t StretchPath::leg_at(double way) const {
@@ -44,19 +82,20 @@ std::size_t StretchPath::leg_at(double way, std::size_t near) const {
   return near;
 }
 
-double StretchPath::distance(const Vector& point, std::size_t leg, double& along) const {
-  const Vector from = point - corners_[leg];
-  along = std::clamp(from.dot(legs_[leg].direction), 0.0, ends_[leg + 1] - ends_[leg]);
-  return (from - along * legs_[leg].direction).squaredNorm();
+double StretchPath::square_distance(const Vector& point, std::size_t leg, double& along) const {
+  const Line& line = lines_[leg];
+  const Vector from = point - line.start;
+  along = std::min(std::max(from.dot(line.direction), 0.0), line.length);
+  return (from - along * line.direction).squaredNorm();
 }
 
 Projection StretchPath::project(const Vector& point, std::size_t near) const {
   double along = 0;
-  double least = distance(point, near, along);
+  double least = square_distance(point, near, along);
   Projection best{near, ends_[near] + along, 0};
   // On and on while it comes nearer, and past small detours.
   const auto look = [&](std::size_t leg) {
-    const double square = distance(point, leg, along);
+    const double square = square_distance(point, leg, along);
     const bool nearer = square <= least;
     if (nearer) {
       least = square;
@@ -65,14 +104,21 @@ Projection StretchPath::project(const Vector& point, std::size_t near) const {
     }
     return nearer;
   };
+  // A point is nearer to a leg than to all that follow if it is on this side of the planes that halve the angles.
+  const Line& line = lines_[near];
+  const double before = along, after = line.length - along, first = least;
   const double detour = kDetour * tolerance_;
-  for (std::size_t leg = near; leg + 1 < legs_.size();) {
-    const bool nearer = look(++leg);
-    if (!nearer && ends_[leg + 1] > best.way + detour) break;
+  if (!(after * after > line.turn_after * first)) {
+    for (std::size_t leg = near; leg + 1 < legs_.size();) {
+      const bool nearer = look(++leg);
+      if (!nearer && ends_[leg + 1] > best.way + detour) break;
+    }
   }
-  for (std::size_t leg = near; leg > 0;) {
-    const bool nearer = look(--leg);
-    if (!nearer && ends_[leg] < best.way - detour) break;
+  if (!(before * before > line.turn_before * first)) {
+    for (std::size_t leg = near; leg > 0;) {
+      const bool nearer = look(--leg);
+      if (!nearer && ends_[leg] < best.way - detour) break;
+    }
   }
   best.distance = std::sqrt(least);
   return best;

@@ -44,8 +44,15 @@ class StretchPath {
   // How near the motion must come to the end of a leg that is not the last, mm.
   double reach(std::size_t leg) const { return reaches_[leg]; }
 
+  // Whether a motion that keeps the tolerance may come too little near to the end of a leg.
+  bool may_be_missed(std::size_t leg) const { return may_be_missed_[leg]; }
+
+  double tolerance(std::size_t leg) const { return lines_[leg].tolerance; }  // mm
+
   // The point at a way on a leg; beyond the ends of the stretch it goes on straight. From origin().
-  Vector at(std::size_t leg, double way) const { return corners_[leg] + (way - ends_[leg]) * legs_[leg].direction; }
+  Vector at(std::size_t leg, double way) const {
+    return lines_[leg].start + (way - ends_[leg]) * lines_[leg].direction;
+  }
 
   // The leg at a way; where two meet, the first. Logarithmic in the number of legs.
   std::size_t leg_at(double way) const;
@@ -68,13 +75,26 @@ class StretchPath {
   const Vector& origin() const { return legs_.front().start; }
 
  private:
-  double distance(const Vector& point, std::size_t leg, double& along) const;
+  // What a projection asks for again and again, together.
+  struct Line {
+    Vector start, direction;
+    double length, tolerance;
+    // Squares of the tangents of half the largest turns from the legs before it, and to those after it, which are not
+    // beyond a small detour.
+    double turn_before = 0, turn_after = 0;
+  };
+
+  void find_turns();
+  void find_what_may_be_missed();
+  double square_distance(const Vector& point, std::size_t leg, double& along) const;
 
   std::span<const Leg> legs_;
   double skipped_;
   std::vector<double> ends_;  // from zero; entry i + 1 is where leg i ends
   std::vector<Vector> corners_;
+  std::vector<Line> lines_;  // the parts of the legs that belong to the stretch
   std::vector<double> reaches_;
+  std::vector<bool> may_be_missed_;
   std::vector<motion::Piece> pieces_;
   double tolerance_;
   bool one_feed_ = true;

@@ -17,16 +17,18 @@ using planning::Plan;
 // No limit is exceeded by more than rounding.
 constexpr double kLimit = 1 + 1e-9;
 
-// The distance from a point to the nearest place of the whole path, not only of the segments that a phase names.
-double distance_to_path(const Vector& point, const planning::Toolpath& path) {
-  double nearest = INFINITY;
-  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+// Whether a point is this near to some place of the whole path, not only of the segments that a phase names. It tries
+// from segment `guess` on first.
+bool is_near(const Vector& point, const planning::Toolpath& path, double distance, std::size_t guess) {
+  const std::size_t size = path.segments.size();
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t i = (guess + k) % size;
     const Vector from = path.start_of(i), along = path.segments[i].end - from;
     const double square = along.squaredNorm();
     const double share = square > 0 ? std::clamp((point - from).dot(along) / square, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (point - from - share * along).norm());
+    if ((point - from - share * along).norm() <= distance) return true;
   }
-  return nearest;
+  return false;
 }
 
 // The segments of the case that count, as phases number them.
@@ -63,7 +65,7 @@ class Judge {
   }
 
   void run() {
-    State at{.position = problem_.path.start};
+    State at = beginning();
     double time = 0;
     for (const Phase& phase : plan_.trajectory) {
       ASSERT_GT(phase.duration, 0);
@@ -72,16 +74,42 @@ class Judge {
       for (int i = 0; i <= 8; ++i) inside_limits(phase, phase.at(phase.duration * i / 8));
       at = phase.at(phase.duration);
       time = phase.end_time();
+      phases_.push_back(phase);
     }
-    State end;
-    end.position = problem_.path.segments.back().end;
+    const State end = ending();
     continuous(at, end);
     EXPECT_LE((plan_.trajectory.final_state().position - end.position).norm(), 1e-9);
+    EXPECT_LE((plan_.trajectory.final_state().velocity - end.velocity).norm(), 1e-9 * end.velocity.norm());
     stops_are_reached();
     corners_keep_their_tolerance();
   }
 
  private:
+  // As it is asked for.
+  State beginning() const {
+    const planning::PathEnds& ends = problem_.path;
+    State state{.position = ends.start};
+    if (segments_.empty()) return state;
+    const Vector direction = direction_of(segments_.front(), ends.start, plan_.trajectory.begin()->start.velocity);
+    state.velocity = ends.start_speed * direction;
+    state.acceleration = ends.start_acceleration * direction;
+    return state;
+  }
+  State ending() const {
+    State state{.position = problem_.path.segments.back().end};
+    if (segments_.empty()) return state;
+    const Vector before = segments_.size() > 1 ? segments_.end()[-2].end : problem_.path.start;
+    state.velocity =
+        problem_.path.end_speed * direction_of(segments_.back(), before, plan_.trajectory.final_state().velocity);
+    return state;
+  }
+  // That of the motion, if rounding can explain what it differs by from that of the segment.
+  Vector direction_of(const planning::Segment& segment, const Vector& from, const Vector& velocity) const {
+    const Vector direction = (segment.end - from).normalized();
+    const double rounding = 16 * rounding_ / (segment.end - from).norm();
+    return (velocity.normalized() - direction).norm() <= rounding ? velocity.normalized() : direction;
+  }
+
   void continuous(const State& before, const State& after) {
     const auto& limits = problem_.options.limits;
     EXPECT_LE((after.position - before.position).norm(), 1e-9 + 16 * rounding_);
@@ -105,7 +133,8 @@ class Judge {
       tolerance = std::max(tolerance, segments_[i].tolerance);
     }
     EXPECT_LE(state.velocity.norm(), feed * kLimit);
-    EXPECT_LE(distance_to_path(state.position, problem_.path), tolerance + 16 * rounding_);
+    EXPECT_TRUE(is_near(state.position, problem_.path, tolerance + 16 * rounding_, phase.segments.first))
+        << "at " << state.position.transpose() << " on segment " << phase.segments.first;
   }
 
   void stops_are_reached() {
@@ -123,6 +152,7 @@ class Judge {
 
   // The corner distance is not something that the contour error shows.
   void corners_keep_their_tolerance() {
+    std::size_t first = 0;  // of the phases that may be near
     for (const auto& corner : plan_.corners) {
       ASSERT_LT(corner.segment + 1, segments_.size());
       const double tolerance = std::min(segments_[corner.segment].tolerance, segments_[corner.segment + 1].tolerance);
@@ -130,9 +160,9 @@ class Judge {
       EXPECT_LE(corner.corner_distance, tolerance * (contour ? 4 : 1));
       EXPECT_LE(corner.contour_error, tolerance);
       double nearest = INFINITY;
-      for (const Phase& phase : plan_.trajectory) {
-        if (phase.segments.last < corner.segment || phase.segments.first > corner.segment + 1) continue;
-        nearest = std::min(nearest, nearest_in(phase, corner.point));
+      while (first < phases_.size() && phases_[first].segments.last < corner.segment) ++first;
+      for (std::size_t i = first; i < phases_.size() && phases_[i].segments.first <= corner.segment + 1; ++i) {
+        nearest = std::min(nearest, nearest_in(phases_[i], corner.point));
       }
       // Corners by themselves have their middle at the middle, the quarter or an end of a phase; the others anywhere.
       EXPECT_LE(nearest, corner.corner_distance * (1 + 1e-6) + 16 * rounding_ + 1e-12);
@@ -142,6 +172,7 @@ class Judge {
   const Case& problem_;
   const Plan& plan_;
   std::vector<planning::Segment> segments_;
+  std::vector<Phase> phases_;
   double rounding_ = 1e-15;
 };
 

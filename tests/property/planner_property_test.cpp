@@ -4,15 +4,21 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "server/planning/invalid_input.h"
+#include "server/planning/leg.h"
 #include "server/planning/planner.h"
 #include "tests/property/dense_case.h"
 #include "tests/property/judge.h"
+#include "tests/property/long_case.h"
+#include "tests/property/random.h"
 #include "tests/property/random_case.h"
 
 namespace kcs::test {
@@ -46,7 +52,27 @@ void keep_every_promise(
   }
 }
 
-constexpr std::uint64_t kRandomShards = 8, kBlendedShards = 1, kDenseShards = 8;
+// Lets a path begin and end in motion, more or less as fast as it may.
+void in_motion(Case& problem, std::uint64_t seed) {
+  Random random(seed);
+  const auto& limits = problem.options.limits;
+  planning::Toolpath& path = problem.path;
+  const auto most = [&](const planning::Vector& from, const planning::Segment& segment) {
+    const planning::Vector direction = (segment.end - from).normalized();
+    return std::pair(std::min(segment.feed, planning::along(limits.velocity, direction, limits.axes)),
+                     planning::along(limits.acceleration, direction, limits.axes));
+  };
+  const auto [speed, acceleration] = most(path.start, path.segments.front());
+  if (random.chance(0.7) && std::isfinite(speed)) {
+    path.start_speed = random.log_uniform(1e-3, 1) * speed;
+    if (random.chance(0.5)) path.start_acceleration = random.uniform(-0.1, 0.1) * acceleration;
+  }
+  const std::size_t last = path.segments.size() - 1;
+  const double end = most(path.start_of(last), path.segments[last]).first;
+  if (!path.segments[last].stop && std::isfinite(end)) path.end_speed = random.log_uniform(1e-3, 1) * end;
+}
+
+constexpr std::uint64_t kRandomShards = 8, kBlendedShards = 1, kDenseShards = 8, kLongShards = 4;
 
 class RandomPaths : public testing::TestWithParam<std::uint64_t> {};
 
@@ -68,6 +94,32 @@ class DensePaths : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(DensePaths, KeepEveryPromise) { keep_every_promise(dense_case, GetParam(), cases(400) / kDenseShards); }
 
 INSTANTIATE_TEST_SUITE_P(Dense, DensePaths, testing::Range<std::uint64_t>(0, kDenseShards));
+
+class LongPaths : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(LongPaths, KeepEveryPromise) { keep_every_promise(long_case, GetParam(), cases(60) / kLongShards); }
+
+INSTANTIATE_TEST_SUITE_P(Long, LongPaths, testing::Range<std::uint64_t>(0, kLongShards));
+
+// Paths that go on from a motion and lead into one. Not every one can: then it says so.
+TEST(PathsInMotion, KeepEveryPromise) {
+  const std::uint64_t count = cases(4'000);
+  std::uint64_t planned = 0;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    Case problem = seed % 8 == 0 ? dense_case(seed) : random_case(seed);
+    in_motion(problem, seed);
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    try {
+      judge(problem, planning::plan(problem.path, problem.options));
+      ++planned;
+    } catch (const planning::InvalidInput&) {
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+    if (testing::Test::HasFailure()) FAIL() << describe(problem);
+  }
+  EXPECT_GT(2 * planned, count);
+}
 
 // Else the suite above says nothing about them.
 TEST(DenseCases, AreMostlyTravelledInSmoothMotions) {
