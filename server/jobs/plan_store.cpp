@@ -12,7 +12,7 @@ namespace {
 std::uint64_t size_of(const KeptPlan& plan) {
   std::uint64_t bytes = sizeof(KeptPlan) + plan.name.capacity() + plan.options.machine_name.capacity();
   bytes += plan.plan.trajectory.bytes();
-  bytes += plan.plan.corners.capacity() * sizeof(planning::Corner);
+  bytes += plan.plan.corners.bytes();
   for (const gcode::Notice& notice : plan.notices) bytes += sizeof(gcode::Notice) + notice.text.capacity();
   return bytes;
 }

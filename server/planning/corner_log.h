@@ -4,16 +4,9 @@
 #include <optional>
 
 #include "server/planning/plan.h"
+#include "server/planning/plan_receiver.h"
 
 namespace kcs::planning {
-
-// Takes plans while they are made; what is planned is not touched again.
-class PlanReceiver {
- public:
-  virtual ~PlanReceiver() = default;
-  virtual void take(const motion::Phase& phase) = 0;
-  virtual void take(const Corner& corner) = 0;
-};
 
 // A corner is passed on when the next one comes: until then more time may be lost after it.
 class CornerLog {

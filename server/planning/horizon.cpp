@@ -9,7 +9,7 @@ namespace {
 
 // What is settled at a time: so many steps of time (smooth_motion.h) at the feed, and legs, at least. Both make
 // planning wait for the path, and the second keeps short programs whole.
-constexpr double kSettledSteps = 300, kSettledLegs = 64;
+constexpr double kSettledSteps = 450, kSettledLegs = 64;
 // What is looked at beyond it: so many steps and legs at least, and as often as far as the tool needs to stop.
 constexpr double kAheadSteps = 150, kAheadLegs = 8, kAheadStops = 3;
 // Where legs are so short that these would be more, this is enough of them.

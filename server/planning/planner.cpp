@@ -10,7 +10,7 @@ class Keeper : public PlanReceiver {
  public:
   explicit Keeper(Plan& plan) : plan_(plan) {}
   void take(const motion::Phase& phase) override { plan_.trajectory.append(phase); }
-  void take(const Corner& corner) override { plan_.corners.push_back(corner); }
+  void take(const Corner& corner) override { plan_.corners.append(corner); }
 
  private:
   Plan& plan_;

@@ -13,8 +13,8 @@ namespace {
 // A stretch stays a little below the feed; from this share on it is at the feed.
 constexpr double kAtFeed = 0.99;
 
-// Samples of a piece, and halvings of the time around the best one.
-constexpr int kSamples = 4, kHalvings = 30;
+// Samples of a piece, and steps from the best one to the nearest place.
+constexpr int kSamples = 4, kSteps = 5;
 
 // Follows a spline of time along its path.
 class Walk {
@@ -35,20 +35,29 @@ class Walk {
   std::size_t piece_ = 0;
 };
 
-// The state in which the motion is nearest to a point.
+// The state in which the motion is nearest to a point: the best of a few samples, and then where the velocity is square
+// to the way to the point, by Newton's method.
 motion::State nearest_in(const motion::Phase& phase, const Vector& point) {
-  const auto distance = [&](double time) { return (phase.at(time).position - point).squaredNorm(); };
-  double step = phase.duration / kSamples, best = 0;
-  for (int i = 1; i <= kSamples; ++i) {
-    if (distance(step * i) < distance(best)) best = step * i;
+  const double step = phase.duration / kSamples;
+  motion::State best = phase.start;
+  double time = 0, least = (best.position - point).squaredNorm();
+  const auto try_at = [&](double tried) {
+    const motion::State state = phase.at(tried);
+    const double distance = (state.position - point).squaredNorm();
+    if (distance >= least) return false;
+    best = state;
+    time = tried;
+    least = distance;
+    return true;
+  };
+  for (int i = 1; i <= kSamples; ++i) try_at(step * i);
+  for (int i = 0; i < kSteps; ++i) {
+    const Vector away = best.position - point;
+    const double slope = away.dot(best.velocity);
+    const double bend = best.velocity.squaredNorm() + away.dot(best.acceleration);
+    if (!(bend > 0) || !try_at(std::clamp(time - slope / bend, 0.0, phase.duration))) break;
   }
-  for (int i = 0; i < kHalvings; ++i) {
-    step /= 2;
-    for (const double time : {best - step, best + step}) {
-      if (time >= 0 && time <= phase.duration && distance(time) < distance(best)) best = time;
-    }
-  }
-  return phase.at(best);
+  return best;
 }
 
 struct Nearest {

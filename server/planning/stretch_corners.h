@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "server/planning/plan.h"
+#include "server/planning/corner.h"
 #include "server/planning/stretch.h"
 
 namespace kcs::planning {

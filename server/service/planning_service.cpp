@@ -122,7 +122,7 @@ grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* /*context*/,
   return answer("DescribeCorners", [&] {
     const Gate::Pass pass(streams_);
     const jobs::PlanPointer kept = find(request->name());
-    const std::vector<planning::Corner>& corners = kept->plan.corners;
+    const planning::CornerList& corners = kept->plan.corners;
     for (std::size_t first = 0; first < corners.size(); first += kCornersPerBatch) {
       v1::CornerBatch batch;
       const std::size_t end = std::min(first + kCornersPerBatch, corners.size());

@@ -153,7 +153,7 @@ class Judge {
   // The corner distance is not something that the contour error shows.
   void corners_keep_their_tolerance() {
     std::size_t first = 0;  // of the phases that may be near
-    for (const auto& corner : plan_.corners) {
+    for (const planning::Corner corner : plan_.corners) {
       ASSERT_LT(corner.segment + 1, segments_.size());
       const double tolerance = std::min(segments_[corner.segment].tolerance, segments_[corner.segment + 1].tolerance);
       const bool contour = problem_.options.tolerance_kind == planning::ToleranceKind::kContourError;

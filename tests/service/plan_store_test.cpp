@@ -49,10 +49,10 @@ TEST(PlanStore, MakesRoomInBytes) {
 
 TEST(PlanStore, CountsTheCornersToo) {
   constexpr std::size_t kCorners = 1000;
-  PlanStore store(100, kCorners * sizeof(planning::Corner));
   auto large = std::make_shared<KeptPlan>();
   large->name = "a";
-  large->plan.corners.resize(kCorners);
+  for (std::size_t i = 0; i < kCorners; ++i) large->plan.corners.append({.segment = i});
+  PlanStore store(100, large->plan.corners.bytes());
   EXPECT_THROW(store.keep(large), CapExceeded);
   EXPECT_EQ(store.find("a"), nullptr);
 }

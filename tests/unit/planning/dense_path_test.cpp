@@ -191,7 +191,7 @@ TEST(DensePath, KeepsTheDistanceToCornersWhereThatIsTheTolerance) {
   const Plan result = plan(circle(), dense_options(CornerStrategy::kAuto, ToleranceKind::kCornerDistance));
   EXPECT_EQ(result.summary.overlapping, kChords - 1);
   EXPECT_LE(result.summary.cycle_time, 0.72);
-  for (const Corner& corner : result.corners) EXPECT_LE(corner.corner_distance, kTolerance);
+  for (const Corner corner : result.corners) EXPECT_LE(corner.corner_distance, kTolerance);
 }
 
 TEST(DensePath, DoesNotMoveAnAxisThatIsNotThere) {
