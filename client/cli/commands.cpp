@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 
 #include "client/cli/corners_table.h"
 #include "client/cli/csv.h"
 #include "client/cli/gnuplot.h"
 #include "client/cli/json.h"
+#include "client/cli/live.h"
 #include "client/cli/numbers.h"
 #include "client/cli/pending_file.h"
 #include "client/cli/plan_table.h"
@@ -53,20 +55,35 @@ void write_setpoints(const Options& options, PlanningSession& session, std::ostr
             });
 }
 
-void stream(const Options& options) {
-  if (options.output == "-") {
-    PlanningSession session(options);
-    return write_setpoints(options, session, std::cout);
-  }
+// Has `write` write to the file of that name, which appears when it is complete; "-": to standard output.
+void write_output(const Options& options, const std::function<void(std::ostream&)>& write) {
+  if (options.output == "-") return write(std::cout);
   client::require_not_the_program(options.file, options.output);
   PendingFile file(options.output);
   std::ofstream out(file.path(), std::ios::binary);
   if (!out)
     throw client::FileError(fmt::format("{}: cannot be written; check the folder and its permissions", options.output));
-  PlanningSession session(options);
-  write_setpoints(options, session, out);
+  write(out);
   out.close();
   file.commit();
+}
+
+void stream(const Options& options) {
+  write_output(options, [&options](std::ostream& out) {
+    PlanningSession session(options);
+    write_setpoints(options, session, out);
+  });
+}
+
+void live(const Options& options) {
+  client::Plan plan;
+  if (options.output.empty()) {
+    plan = plan_live(options, nullptr);
+  } else {
+    write_output(options, [&](std::ostream& out) { plan = plan_live(options, &out); });
+  }
+  if (options.output == "-") return;
+  print(options.json ? plan_json(plan) : plan_table(program_name(options), plan, {}));
 }
 
 PictureFormat picture_format(const std::string& name) {
@@ -106,6 +123,8 @@ void run_command(const Options& options) {
       return plan(options);
     case Command::kStream:
       return stream(options);
+    case Command::kLive:
+      return live(options);
     case Command::kCorners:
       return corners(options);
     case Command::kPlot:

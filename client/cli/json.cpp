@@ -22,6 +22,9 @@ Json options_json(const client::PlanOptions& options) {
   json["strategy"] = name_of(options.strategy);
   if (options.feed_mm_s) json["feed_mm_s"] = *options.feed_mm_s;
   json["start_mm"] = options.start_mm;
+  json["start_speed_mm_s"] = options.start_speed_mm_s;
+  json["start_acceleration_mm_s2"] = options.start_acceleration_mm_s2;
+  json["end_speed_mm_s"] = options.end_speed_mm_s;
   return json;
 }
 

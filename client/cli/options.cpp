@@ -20,6 +20,15 @@ const std::map<std::string, Channel> kChannels = {
 void add_common_options(CLI::App& app, Options& options) {
   app.add_option("FILE", options.file, "G-code program; - reads standard input")->required()->option_text(" ");
   client::add_planning_options(app, options.machine, options.plan);
+  app.add_option("--start-speed", options.plan.start_speed_mm_s,
+                 "how fast the tool is at the start already,\nalong the first move (default: 0)")
+      ->option_text("MM_PER_S");
+  app.add_option("--start-acceleration", options.plan.start_acceleration_mm_s2,
+                 "and how much faster it is getting (default: 0)")
+      ->option_text("MM_PER_S2");
+  app.add_option("--end-speed", options.plan.end_speed_mm_s,
+                 "how fast it is to be at the end,\nalong the last move (default: 0)")
+      ->option_text("MM_PER_S");
   app.add_option("--period", options.period_s,
                  "time between two setpoints (default: 0.001);\nwithout effect on plan and corners")
       ->option_text("S");
@@ -36,6 +45,18 @@ CLI::App* add_command(CLI::App& app, Options& options, Command command, const st
   return subcommand;
 }
 
+void add_channels(CLI::App& app, Options& options) {
+  app.add_option_function<std::vector<std::string>>(
+         "--channels",
+         [&options](const std::vector<std::string>& names) {
+           for (const std::string& name : names) options.channels.push_back(kChannels.at(name));
+         },
+         "further columns: velocity,acceleration,jerk")
+      ->delimiter(',')
+      ->check(CLI::IsMember(&kChannels))
+      ->option_text("LIST");
+}
+
 void add_commands(CLI::App& app, Options& options) {
   CLI::App* plan = add_command(app, options, Command::kPlan, "plan", "say how long a program takes, and why");
   plan->add_flag("--json", options.json, "print one JSON object instead of the table");
@@ -44,16 +65,15 @@ void add_commands(CLI::App& app, Options& options) {
   stream->add_option("-o,--output", options.output, "file to write; - is standard output")
       ->required()
       ->option_text("OUT.csv");
-  stream
-      ->add_option_function<std::vector<std::string>>(
-          "--channels",
-          [&options](const std::vector<std::string>& names) {
-            for (const std::string& name : names) options.channels.push_back(kChannels.at(name));
-          },
-          "further columns: velocity,acceleration,jerk")
-      ->delimiter(',')
-      ->check(CLI::IsMember(&kChannels))
-      ->option_text("LIST");
+  add_channels(*stream, options);
+
+  CLI::App* live = add_command(app, options, Command::kLive, "live", "plan a program of any length while it comes");
+  live->add_option(
+          "-o,--output", options.output,
+          "file for the setpoints, written meanwhile (default:\nnone); - is standard output, with no table after them")
+      ->option_text("OUT.csv");
+  live->add_flag("--json", options.json, "print one JSON object instead of the table");
+  add_channels(*live, options);
 
   CLI::App* corners = add_command(app, options, Command::kCorners, "corners", "say how every corner is taken");
   corners->add_flag("--json", options.json, "print a JSON array instead of the table");

@@ -12,19 +12,19 @@
 
 namespace kcs::cli {
 
-enum class Command { kPlan, kStream, kCorners, kPlot };
+enum class Command { kPlan, kStream, kLive, kCorners, kPlot };
 
 struct Options {
   Command command = Command::kPlan;
   std::string file;  // the G-code program; "-": standard input
   std::string machine = client::kDefaultMachine;
   client::PlanOptions plan;           // all but the machine
-  double period_s = 0.001;            // between two setpoints; of use to stream and plot alone
+  double period_s = 0.001;            // between two setpoints; of use to stream, live and plot alone
   std::optional<std::string> server;  // HOST:PORT; none: plan inside this process
 
-  bool json = false;                      // plan, corners
-  std::string output;                     // stream, plot; "-": standard output
-  std::vector<client::Channel> channels;  // stream
+  bool json = false;                      // plan, live, corners
+  std::string output;                     // stream, live (empty: none), plot; "-": standard output
+  std::vector<client::Channel> channels;  // stream, live
   double from_s = 0;                      // plot: the window of time
   std::optional<double> to_s;             // plot; none: the end
 };

@@ -6,8 +6,23 @@
 
 #include "client/common/file_error.h"
 #include "client/common/program_file.h"
+#include "client/sdk/error.h"
 
 namespace kcs::gateway {
+namespace {
+
+// Drives cannot be thrown into a motion, nor out of one.
+void require_rest(const client::Plan& plan) {
+  const client::PlanOptions& options = plan.options;
+  if (options.start_speed_mm_s == 0 && options.start_acceleration_mm_s2 == 0 && options.end_speed_mm_s == 0) return;
+  throw client::Error(
+      "FAILED_PRECONDITION",
+      fmt::format("{} begins or ends in motion, and drives start and stop at rest: plan the path without "
+                  "speeds at its ends",
+                  plan.name));
+}
+
+}  // namespace
 
 PlanSource::PlanSource(std::string address, std::string name) : address_(std::move(address)), name_(std::move(name)) {}
 
@@ -17,6 +32,7 @@ PlanSource::PlanSource(std::string address, Program program)
 client::Plan PlanSource::obtain() {
   connect();
   client::Plan plan = program_ ? make({}) : planner_->get(name_);
+  require_rest(plan);
   name_ = plan.name;
   return plan;
 }

@@ -1,6 +1,11 @@
 #include "client/sdk/messages.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <string_view>
+
+#include "client/sdk/error.h"
 
 namespace kcs::client {
 namespace {
@@ -24,6 +29,12 @@ void assign_part(google::protobuf::RepeatedField<T>& field, const std::vector<T>
   const auto begin = values.begin() + static_cast<std::ptrdiff_t>(std::min(first, values.size()));
   const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(first + count, values.size()));
   field.Assign(begin, end);
+}
+
+void check_entries(std::string_view name, std::size_t entries, std::size_t points, bool single_allowed) {
+  if (entries == 0 || entries == points || (single_allowed && entries == 1)) return;
+  throw Error("INVALID_ARGUMENT", fmt::format("{} has {} entries for {} points; give {}one per point, or none", name,
+                                              entries, points, single_allowed ? "one for all, " : ""));
 }
 
 v1::Machine to_message(const Machine& machine) {
@@ -104,6 +115,9 @@ PlanOptions from_message(const v1::PlanOptions& message) {
   options.strategy = from_message(message.strategy());
   if (message.has_feed_mm_s()) options.feed_mm_s = message.feed_mm_s();
   options.start_mm = to_vector(message.start_mm());
+  options.start_speed_mm_s = message.start_speed_mm_s();
+  options.start_acceleration_mm_s2 = message.start_acceleration_mm_s2();
+  options.end_speed_mm_s = message.end_speed_mm_s();
   return options;
 }
 
@@ -149,6 +163,9 @@ v1::PlanOptions to_message(const PlanOptions& options) {
   message.set_strategy(to_message(options.strategy));
   if (options.feed_mm_s) message.set_feed_mm_s(*options.feed_mm_s);
   assign(*message.mutable_start_mm(), options.start_mm);
+  message.set_start_speed_mm_s(options.start_speed_mm_s);
+  message.set_start_acceleration_mm_s2(options.start_acceleration_mm_s2);
+  message.set_end_speed_mm_s(options.end_speed_mm_s);
   return message;
 }
 
@@ -161,6 +178,28 @@ v1::StreamSetpointsRequest to_message(const std::string& plan, const StreamOptio
   message.set_batch_size(options.batch_size);
   if (options.last_index) message.set_last_index(*options.last_index);
   return message;
+}
+
+v1::LiveOutput to_message(const LiveOptions& options) {
+  v1::LiveOutput message;
+  message.set_period_s(options.period_s);
+  for (const Channel channel : options.channels) message.add_channels(to_message(channel));
+  message.set_batch_size(options.batch_size);
+  message.set_corners(options.corners);
+  return message;
+}
+
+std::size_t count_points(const PointPath& path, std::size_t axes) {
+  const std::size_t points = (path.points_mm.size() + axes - 1) / axes;
+  check_entries("feed_mm_s", path.feed_mm_s.size(), points, true);
+  check_entries("tolerance_mm", path.tolerance_mm.size(), points, true);
+  check_entries("line", path.line.size(), points, false);
+  for (const Stop& stopped : path.stops) {
+    if (stopped.point < points) continue;
+    throw Error("INVALID_ARGUMENT",
+                fmt::format("stops names point {}, but the path has {} points, counted from 0", stopped.point, points));
+  }
+  return points;
 }
 
 v1::PathChunk to_message(const PointPath& path, std::size_t axes, std::size_t first, std::size_t count) {

@@ -34,6 +34,11 @@ struct PlanOptions {
   CornerStrategy strategy = CornerStrategy::kAuto;
   std::optional<double> feed_mm_s;  // replaces every programmed feed and the rapid; none: as programmed
   std::vector<double> start_mm;     // where a G-code program starts, one per axis; empty: the machine's zero
+  // How the tool moves at the start of the path, along its first segment, and at its end, along its last: at rest
+  // unless it goes on from one motion to another.
+  double start_speed_mm_s = 0;
+  double start_acceleration_mm_s2 = 0;
+  double end_speed_mm_s = 0;
 };
 
 // The tool stops on a point of a path.

@@ -11,16 +11,13 @@
 #include <utility>
 
 #include "client/sdk/call_context.h"
+#include "client/sdk/live_call.h"
 #include "client/sdk/messages.h"
 #include "client/sdk/setpoint_call.h"
 #include "client/sdk/status_error.h"
 
 namespace kcs::client {
 namespace {
-
-// Small enough to keep memory low and to stay far below gRPC's largest message of 4 MiB.
-constexpr std::size_t kGcodeBytesPerMessage = 1 << 18;
-constexpr std::size_t kPointsPerMessage = 8192;
 
 // A server that answers a ping keeps a call alive, even one that plans for an hour; one that does not ends it.
 constexpr int kPingAfterSilenceMs = 10'000;
@@ -34,12 +31,6 @@ std::shared_ptr<grpc::Channel> make_channel(const std::string& address) {
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kPingTimeoutMs);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number of them
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
-}
-
-void check_entries(std::string_view name, std::size_t entries, std::size_t points, bool single_allowed) {
-  if (entries == 0 || entries == points || (single_allowed && entries == 1)) return;
-  throw Error("INVALID_ARGUMENT", fmt::format("{} has {} entries for {} points; give {}one per point, or none", name,
-                                              entries, points, single_allowed ? "one for all, " : ""));
 }
 
 }  // namespace
@@ -81,6 +72,14 @@ class Planner::Connection {
   SetpointStream stream(const v1::StreamSetpointsRequest& request, const std::stop_token& stop) {
     stub(stop);
     return SetpointStream(std::make_unique<SetpointStream::Call>(stub_, address_, request, stop));
+  }
+
+  LiveStream live(const PlanOptions& options, const LiveOptions& output, const std::stop_token& stop) {
+    stub(stop);
+    v1::PlanLiveRequest request;
+    *request.mutable_options() = to_message(options);
+    *request.mutable_output() = to_message(output);
+    return LiveStream(std::make_unique<LiveStream::Call>(stub_, address_, request, stop));
   }
 
   // For questions that a server answers at once.
@@ -133,15 +132,7 @@ Plan Planner::plan_gcode(std::istream& program, const PlanOptions& options, cons
 
 Plan Planner::plan_points(const PointPath& path, const PlanOptions& options, const std::stop_token& stop) {
   const std::size_t axes = std::max<std::size_t>(options.machine.axes, 1);
-  const std::size_t points = (path.points_mm.size() + axes - 1) / axes;
-  check_entries("feed_mm_s", path.feed_mm_s.size(), points, true);
-  check_entries("tolerance_mm", path.tolerance_mm.size(), points, true);
-  check_entries("line", path.line.size(), points, false);
-  for (const Stop& stopped : path.stops) {
-    if (stopped.point < points) continue;
-    throw Error("INVALID_ARGUMENT",
-                fmt::format("stops names point {}, but the path has {} points, counted from 0", stopped.point, points));
-  }
+  const std::size_t points = count_points(path, axes);
   std::size_t first = 0;
   return connection_->create(options, stop, [&](v1::CreatePlanRequest& request) {
     if (first >= points) return false;
@@ -189,6 +180,10 @@ std::vector<Corner> Planner::corners(const std::string& name, const std::stop_to
 SetpointStream Planner::stream_setpoints(const std::string& name, const StreamOptions& options,
                                          const std::stop_token& stop) {
   return connection_->stream(to_message(name, options), stop);
+}
+
+LiveStream Planner::plan_live(const PlanOptions& options, const LiveOptions& output, const std::stop_token& stop) {
+  return connection_->live(options, output, stop);
 }
 
 }  // namespace kcs::client

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "client/sdk/error.h"
+#include "client/sdk/live_stream.h"
 #include "client/sdk/machine.h"
 #include "client/sdk/plan.h"
 #include "client/sdk/setpoint_stream.h"
@@ -64,6 +65,10 @@ class Planner {
   // next() that waits in another thread throws Error ("CANCELLED").
   SetpointStream stream_setpoints(const std::string& name, const StreamOptions& options,
                                   const std::stop_token& stop = {});
+
+  // Starts to plan a path that is still to come, see LiveStream. The planner may go before the stream does. The stop
+  // token holds for the whole stream.
+  LiveStream plan_live(const PlanOptions& options, const LiveOptions& output, const std::stop_token& stop = {});
 
  private:
   class Connection;

@@ -12,10 +12,10 @@ constexpr std::size_t kBytesOfBlock = 32;  // longer lines count as several bloc
 
 }  // namespace
 
-Execution::Execution(const Options& options, planning::Toolpath& path, Notices& notices)
+Execution::Execution(const Options& options, TakeSegment take, Notices& notices)
     : options_(options),
       notices_(notices),
-      interpreter_(options, path, notices),
+      interpreter_(options, std::move(take), notices),
       parameters_(interpreter_, options.max_names) {}
 
 void Execution::read(const Line& line) {
@@ -30,11 +30,13 @@ void Execution::read(const Line& line) {
   program_.restart();
 }
 
-void Execution::finish() const {
-  if (has_ended() || program_.nesting().empty()) return;
-  const Construct& open = program_.nesting().innermost();
-  refuse(open.opened_by.place, open.opened_by.text() + " is not closed before the program ends. Add " +
-                                   open.opened_by.text(open.end()) + ".");
+void Execution::finish() {
+  if (!has_ended() && !program_.nesting().empty()) {
+    const Construct& open = program_.nesting().innermost();
+    refuse(open.opened_by.place, open.opened_by.text() + " is not closed before the program ends. Add " +
+                                     open.opened_by.text(open.end()) + ".");
+  }
+  interpreter_.finish();
 }
 
 void Execution::keep(const Line& line) {

@@ -16,7 +16,6 @@
 #include "server/gcode/walk.h"
 #include "server/gcode/words.h"
 #include "server/planning/invalid_input.h"
-#include "server/planning/toolpath.h"
 
 namespace kcs::gcode {
 
@@ -27,8 +26,8 @@ inline constexpr std::size_t kMaxCalls = 100;
 // of the main program, whose first round runs while its lines come.
 class Execution {
  public:
-  // Appends the moves to `path`; `path` and `notices` must outlive the object.
-  Execution(const Options& options, planning::Toolpath& path, Notices& notices);
+  // `take` gets the moves, the last one at the end; `notices` must outlive the object.
+  Execution(const Options& options, TakeSegment take, Notices& notices);
   // Its parts refer to each other.
   Execution(const Execution&) = delete;
   Execution& operator=(const Execution&) = delete;
@@ -37,7 +36,7 @@ class Execution {
   // naming the place and the call that led there; throws CapReached at a cap of the options.
   void read(const Line& line);
   // After the last line. Refuses what is begun and not closed.
-  void finish() const;
+  void finish();
 
   // Something other than comments came.
   bool has_begun() const { return has_begun_; }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "server/gcode/without_effect.h"
 #include "server/planning/options.h"
@@ -20,8 +21,11 @@ constexpr double kSmallestShortfall = 1e-6;  // mm, of a radius, that is worth a
 
 }  // namespace
 
-Interpreter::Interpreter(const Options& options, planning::Toolpath& path, Notices& notices)
-    : options_(options), notices_(notices), builder_(path, options.max_segments, options.max_chords), modes_(options) {}
+Interpreter::Interpreter(const Options& options, TakeSegment take, Notices& notices)
+    : options_(options),
+      notices_(notices),
+      builder_(options.start, std::move(take), options.max_segments, options.max_chords),
+      modes_(options) {}
 
 void Interpreter::execute(const Words& words) {
   const Codes codes(words, notices_);

@@ -17,11 +17,13 @@ namespace kcs::gcode {
 // the machine's until G92 shifts them. Each such word is noted.
 class Interpreter {
  public:
-  // Appends the moves to `path`; `path` and `notices` must outlive the interpreter.
-  Interpreter(const Options& options, planning::Toolpath& path, Notices& notices);
+  // `take` gets the moves, the last one at the end; `notices` must outlive the interpreter.
+  Interpreter(const Options& options, TakeSegment take, Notices& notices);
 
   // Executes one block. Refuses what cannot be done safely, naming the place.
   void execute(const Words& words);
+  // After the last block.
+  void finish() { builder_.finish(); }
 
   // M2 or M30 came.
   bool program_has_ended() const { return program_has_ended_; }

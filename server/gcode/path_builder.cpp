@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "server/gcode/cap_reached.h"
 #include "server/gcode/trigonometry.h"
@@ -19,15 +20,15 @@ double angle_between(const Vector& a, const Vector& b) { return arc_tangent(a.cr
 
 }  // namespace
 
-PathBuilder::PathBuilder(planning::Toolpath& path, std::size_t max_segments, std::size_t max_chords)
-    : path_(path), max_segments_(max_segments), max_chords_(max_chords) {}
+PathBuilder::PathBuilder(const Vector& start, TakeSegment take, std::size_t max_segments, std::size_t max_chords)
+    : take_(std::move(take)), last_start_(start), max_segments_(max_segments), max_chords_(max_chords) {}
 
 void PathBuilder::line(const Vector& end, const Manner& manner) {
   if (end == position()) return;
   const bool is_exact = manner.tolerance == 0;
   rest_at_corner(end, 0, manner);
   append(end, is_exact ? kExactTolerance : manner.tolerance, manner);
-  path_.segments.back().stop = manner.rests;
+  last_->stop = manner.rests;
   last_is_exact_ = is_exact;
   last_turn_ = 0;
 }
@@ -50,43 +51,50 @@ void PathBuilder::arc(const Arc& arc, const Manner& manner) {
   for (std::size_t chord = 1; chord <= count; ++chord) {
     append(arc.chord_end(chord, count), is_exact ? kExactTolerance : (1 - kChordShare) * manner.tolerance, manner);
   }
-  path_.segments.back().stop = manner.rests;
+  last_->stop = manner.rests;
   last_is_exact_ = is_exact;
   last_turn_ = turn;
   largest_chord_error_ = std::max(largest_chord_error_, arc.chord_error(chords));
 }
 
 void PathBuilder::rest() {
-  if (!path_.segments.empty()) path_.segments.back().stop = true;
+  if (last_) last_->stop = true;
 }
 
 void PathBuilder::dwell(double duration, Place place) {
   // The path has no other place for a dwell at its very start than a segment of no length.
-  if (path_.segments.empty()) append(path_.start, 0, {.feed = std::numeric_limits<double>::infinity(), .place = place});
-  planning::Segment& last = path_.segments.back();
-  last.stop = true;
-  last.dwell += duration;
-  if (last.dwell > planning::range::kMaxDwell) {
+  if (!last_) append(position(), 0, {.feed = std::numeric_limits<double>::infinity(), .place = place});
+  last_->stop = true;
+  last_->dwell += duration;
+  if (last_->dwell > planning::range::kMaxDwell) {
     refuse(place, "the tool would stay here for more than 1e6 s. G4 P is in seconds.");
   }
 }
 
+void PathBuilder::finish() {
+  if (last_) take_(*last_);
+}
+
 void PathBuilder::append(const Vector& end, double tolerance, const Manner& manner) {
-  if (path_.segments.size() == max_segments_) {
+  if (segments_ == max_segments_) {
     throw CapReached({"max_segments", max_segments_}, manner.place,
                      "the program has more than " + std::to_string(max_segments_) +
                          " segments (the cap max_segments). Split it into several programs.");
   }
-  path_.segments.push_back({.end = end, .feed = manner.feed, .tolerance = tolerance, .line = manner.place.line});
+  ++segments_;
+  if (last_) {
+    take_(*last_);
+    last_start_ = last_->end;
+  }
+  last_ = {.end = end, .feed = manner.feed, .tolerance = tolerance, .line = manner.place.line};
 }
 
 // Where a move is to be followed exactly, lets the tool rest before it, unless the path goes on smoothly. Where an arc
 // meets a line or an arc tangentially, its chords still change direction: by less than they do among each other.
 void PathBuilder::rest_at_corner(const Vector& first_end, double turn, const Manner& manner) {
-  if (path_.segments.empty() || (manner.tolerance > 0 && !last_is_exact_)) return;
-  const std::size_t last = path_.segments.size() - 1;
-  const double corner = angle_between(path_.segments[last].end - path_.start_of(last), first_end - position());
-  if (corner > std::max({turn, last_turn_, kStraight})) path_.segments[last].stop = true;
+  if (!last_ || (manner.tolerance > 0 && !last_is_exact_)) return;
+  const double corner = angle_between(last_->end - last_start_, first_end - last_->end);
+  if (corner > std::max({turn, last_turn_, kStraight})) last_->stop = true;
 }
 
 }  // namespace kcs::gcode

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "server/gcode/arc.h"
 #include "server/gcode/place.h"
@@ -26,13 +28,17 @@ struct Manner {
   Place place;           // that the move comes from
 };
 
+// Takes a path segment by segment. What it throws ends the reading.
+using TakeSegment = std::function<void(const planning::Segment&)>;
+
 class PathBuilder {
  public:
-  // Appends to `path`, which must outlive the builder. max_segments: cap on path.segments; max_chords: on one arc.
-  PathBuilder(planning::Toolpath& path, std::size_t max_segments, std::size_t max_chords);
+  // start: where the tool is, mm. `take` gets each segment when the next one comes, for until then the tool may be told
+  // to rest at its end. max_segments: cap on their number; max_chords: on one arc.
+  PathBuilder(const Vector& start, TakeSegment take, std::size_t max_segments, std::size_t max_chords);
 
   // Where the tool is, mm.
-  const Vector& position() const { return path_.segments.empty() ? path_.start : path_.segments.back().end; }
+  const Vector& position() const { return last_ ? last_->end : last_start_; }
 
   // Moves straight. A move to where the tool already is leaves no trace.
   void line(const Vector& end, const Manner& manner);
@@ -42,6 +48,8 @@ class PathBuilder {
   void rest();
   // Stays where the tool is for `duration` s, > 0.
   void dwell(double duration, Place place);
+  // Nothing more comes.
+  void finish();
 
   // Largest distance between an arc and its chords so far, mm.
   double largest_chord_error() const { return largest_chord_error_; }
@@ -50,7 +58,10 @@ class PathBuilder {
   void append(const Vector& end, double tolerance, const Manner& manner);
   void rest_at_corner(const Vector& first_end, double turn, const Manner& manner);
 
-  planning::Toolpath& path_;
+  TakeSegment take_;
+  std::optional<planning::Segment> last_;
+  Vector last_start_;  // or where the path starts, mm
+  std::size_t segments_ = 0;
   std::size_t max_segments_;
   std::size_t max_chords_;
   bool last_is_exact_ = false;  // the last move

@@ -1,5 +1,7 @@
 #include "server/gcode/reader.h"
 
+#include <utility>
+
 namespace kcs::gcode {
 namespace {
 
@@ -7,9 +9,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // with which some 
 
 }  // namespace
 
-Reader::Reader(const Options& options, planning::Toolpath& path) : execution_(options, path, notices_) {
-  path.start = options.start;
-}
+Reader::Reader(const Options& options, TakeSegment take) : execution_(options, std::move(take), notices_) {}
 
 void Reader::read(std::string_view piece) {
   lines_.read(piece, [this](std::string_view text, std::uint32_t number) { read_line(text, number); });

@@ -1,4 +1,4 @@
-// Reads an RS-274 program (G-code) into a tool path.
+// Reads the tool path out of an RS-274 program (G-code).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,6 @@
 #include "server/gcode/lines.h"
 #include "server/gcode/notices.h"
 #include "server/gcode/options.h"
-#include "server/planning/toolpath.h"
 
 namespace kcs::gcode {
 
@@ -26,8 +25,9 @@ namespace kcs::gcode {
 // followed safely, and CapReached, which is one, at a cap of the options. After that the reader must not be used.
 class Reader {
  public:
-  // Sets the start of `path` and appends segments to it; `path` must outlive the reader.
-  Reader(const Options& options, planning::Toolpath& path);
+  // `take` gets the segments of the path, which starts at options.start, one behind what was read; the last one comes
+  // at the end.
+  Reader(const Options& options, TakeSegment take);
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 

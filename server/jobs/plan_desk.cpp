@@ -50,10 +50,7 @@ PlanPointer PlanDesk::plan(PlanRequest request) {
   const auto began = std::chrono::steady_clock::now();
   auto made = std::make_shared<KeptPlan>();
   made->plan = planning::plan(request.path, request.options.planning);
-  made->name = std::move(request.name);
-  made->options = std::move(request.options);
-  made->notices = std::move(request.notices);
-  made->max_chord_error = request.max_chord_error;
+  static_cast<RequestRecord&>(*made) = std::move(request);
   store_.keep(made);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began;
   spdlog::info("planned {}: {} segments in {:.3f} s, cycle time {:.3f} s", made->name, made->plan.summary.segments,

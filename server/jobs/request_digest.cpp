@@ -30,19 +30,22 @@ RequestDigest::RequestDigest(const RequestOptions& options)
   add(static_cast<std::uint64_t>(options.planning.tolerance_kind));
   add(static_cast<std::uint64_t>(options.planning.strategy));
   add(options.feed);
-  add(std::uint64_t{options.start.has_value()});
+  const bool in_motion = options.start_speed != 0 || options.start_acceleration != 0 || options.end_speed != 0;
+  add(std::uint64_t{in_motion} << 1 | std::uint64_t{options.start.has_value()});
   if (options.start) add(*options.start);
+  if (in_motion) {
+    add(options.start_speed);
+    add(options.start_acceleration);
+    add(options.end_speed);
+  }
 }
 
-void RequestDigest::add(const planning::Toolpath& path) {
-  add(path.start);
-  for (const planning::Segment& segment : path.segments) {
-    add(segment.end);
-    add(segment.feed);
-    add(segment.tolerance);
-    add(segment.dwell);
-    add(std::uint64_t{segment.line} << 1 | std::uint64_t{segment.stop});
-  }
+void RequestDigest::add(const planning::Segment& segment) {
+  add(segment.end);
+  add(segment.feed);
+  add(segment.tolerance);
+  add(segment.dwell);
+  add(std::uint64_t{segment.line} << 1 | std::uint64_t{segment.stop});
 }
 
 void RequestDigest::add(std::string_view gcode) {

@@ -20,8 +20,10 @@ class RequestDigest {
   // Starts with the options. Whether they have a start tells G-code from points.
   explicit RequestDigest(const RequestOptions& options);
 
-  // Adds a path of points.
-  void add(const planning::Toolpath& path);
+  // Adds the start of a path of points.
+  void add(const planning::Vector& start);
+  // Adds its next segment.
+  void add(const planning::Segment& segment);
   // Adds the next bytes of a G-code program.
   void add(std::string_view gcode);
 
@@ -31,7 +33,6 @@ class RequestDigest {
  private:
   void add(double value);  // −0 counts as 0
   void add(std::uint64_t value);
-  void add(const planning::Vector& vector);
   void add(const std::optional<double>& value);
   void flush();
 

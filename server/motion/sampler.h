@@ -4,15 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "server/motion/setpoint.h"
 #include "server/motion/trajectory.h"
 
 namespace kcs::motion {
-
-// One sample of a motion.
-struct Setpoint {
-  State state;
-  Vector jerk = Vector::Zero();  // mm/s³; where two phases meet, that of the later one
-};
 
 // Samples a trajectory at the times i × period. The last setpoint is the exact end; it belongs to the first multiple of
 // the period that is not before the end.

@@ -164,7 +164,8 @@ Section::Cut Section::cut_after(const Cut& cut) const {
     while (last < stages && !ends_well(corners_.stages[last])) ++last;
     if (last >= stages) return end();
   }
-  if (!corners_.stages[last].stretch) return {last + 1, 0};
+  // A stretch that is not the last one was not planned to a rest that nobody asked for: it is followed to its end.
+  if (!corners_.stages[last].stretch || last + 1 < stages) return {last + 1, 0};
   const Stretch& stretch = *corners_.stages[last].stretch;
   const auto& ways = stretch.spline().ways;
   const std::size_t from = cut.points > 0 ? cut.points : stretch.first_piece() + 3;

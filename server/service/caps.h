@@ -7,9 +7,10 @@ namespace kcs::service {
 
 // A request that passes a cap is refused with RESOURCE_EXHAUSTED, and the answer names the cap.
 struct Caps {
-  // Points of one tool path; for G-code its straight segments, arcs counted as their chords. 64 bytes each.
+  // Points of one tool path; for G-code its straight segments, arcs counted as their chords. 64 bytes each. A path that
+  // is planned live may have any number of them; only the chords of one arc are as many at the most.
   std::uint64_t points_per_plan = 1'000'000;
-  // Text of one G-code program.
+  // Text of one G-code program; not of one that is planned live.
   std::uint64_t gcode_bytes = 64 << 20;
   // One message of a client. gRPC's own default, which its clients keep to as well.
   std::uint64_t message_bytes = 4 << 20;
@@ -23,6 +24,8 @@ struct Caps {
   // Calls of StreamSetpoints and DescribeCorners under way at the same time; each holds a thread and one batch on its
   // way: 0.2 MB at the default batch size and three axes, 6 MB for the largest batch with all channels.
   std::uint64_t streams = 1'000;
+  // Calls of PlanLive under way at the same time; each holds a thread, which plans, and a part of the path: some MB.
+  std::uint64_t live_streams = 64;
 };
 
 }  // namespace kcs::service

@@ -70,7 +70,8 @@ Keys cap_keys(Caps& caps) {
           {"stored_bytes", whole(caps.stored_bytes, 1, kMany)},
           {"queue_length", whole(caps.queue_length, 0, kMany)},
           {"uploads", whole(caps.uploads, 1, kMostCalls)},
-          {"streams", whole(caps.streams, 1, kMostCalls)}};
+          {"streams", whole(caps.streams, 1, kMostCalls)},
+          {"live_streams", whole(caps.live_streams, 1, kMostCalls)}};
 }
 
 Keys server_keys(Config& config) {

@@ -125,6 +125,13 @@ jobs::RequestOptions decode_options(const v1::PlanOptions& options) {
     violations.check_range("options.feed_mm_s", options.feed_mm_s(), range::kMinFeed, range::kMaxFeed, "mm/s");
     decoded.feed = options.feed_mm_s();
   }
+  violations.check_range("options.start_speed_mm_s", options.start_speed_mm_s(), 0, range::kMaxFeed, "mm/s");
+  violations.check_range("options.start_acceleration_mm_s2", options.start_acceleration_mm_s2(),
+                         -range::kMaxAcceleration, range::kMaxAcceleration, "mm/s²");
+  violations.check_range("options.end_speed_mm_s", options.end_speed_mm_s(), 0, range::kMaxFeed, "mm/s");
+  decoded.start_speed = options.start_speed_mm_s() + 0.0;  // no −0
+  decoded.start_acceleration = options.start_acceleration_mm_s2() + 0.0;
+  decoded.end_speed = options.end_speed_mm_s() + 0.0;
   violations.refuse();
   if (!options.start_mm().empty()) {
     decoded.start = decode_vector("options.start_mm", options.start_mm(), decoded.planning.limits.axes,

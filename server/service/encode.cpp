@@ -53,15 +53,18 @@ void encode_options(const jobs::RequestOptions& options, v1::PlanOptions& messag
   message.set_strategy(encode_strategy(options.planning.strategy));
   if (options.feed) message.set_feed_mm_s(*options.feed);
   if (options.start) encode_vector(*options.start, limits.axes, *message.mutable_start_mm());
+  message.set_start_speed_mm_s(options.start_speed);
+  message.set_start_acceleration_mm_s2(options.start_acceleration);
+  message.set_end_speed_mm_s(options.end_speed);
 }
 
-void encode_summary(const jobs::KeptPlan& kept, v1::PlanSummary& message) {
-  const planning::Summary& summary = kept.plan.summary;
-  const std::size_t axes = kept.options.planning.limits.axes;
+void encode_summary(const Outcome& outcome, std::size_t axes, v1::PlanSummary& message) {
+  const planning::Summary& summary = outcome.summary;
   message.set_cycle_time_s(summary.cycle_time);
   message.set_path_length_mm(summary.path_length);
   message.set_segment_count(summary.segments);
-  message.set_corner_count(kept.plan.corners.size());
+  message.set_corner_count(summary.interrupted + summary.uninterrupted + summary.blended + summary.overlapping +
+                           summary.exact_stops);
   message.set_interrupted_count(summary.interrupted);
   message.set_uninterrupted_count(summary.uninterrupted);
   message.set_exact_stop_count(summary.exact_stops);
@@ -71,28 +74,34 @@ void encode_summary(const jobs::KeptPlan& kept, v1::PlanSummary& message) {
   message.set_dwell_time_s(summary.dwell_time);
   message.set_time_at_feed_s(summary.time_at_feed);
   message.set_max_contour_error_mm(summary.max_contour_error);
-  message.set_max_chord_error_mm(kept.max_chord_error);
   message.set_max_feed_mm_s(summary.max_feed);
   encode_vector(summary.max_velocity, axes, *message.mutable_max_velocity_mm_s());
   encode_vector(summary.max_acceleration, axes, *message.mutable_max_acceleration_mm_s2());
   encode_vector(summary.max_jerk, axes, *message.mutable_max_jerk_mm_s3());
-  message.set_phase_count(kept.plan.trajectory.size());
-  encode_vector(kept.plan.start, axes, *message.mutable_start_mm());
-  encode_vector(kept.plan.trajectory.final_state().position, axes, *message.mutable_end_mm());
+  message.set_phase_count(outcome.phases);
+  encode_vector(outcome.start, axes, *message.mutable_start_mm());
+  encode_vector(outcome.end, axes, *message.mutable_end_mm());
 }
 
 }  // namespace
 
-void encode_plan(const jobs::KeptPlan& kept, v1::Plan& message) {
-  message.set_name(kept.name);
-  encode_options(kept.options, *message.mutable_options());
-  encode_summary(kept, *message.mutable_summary());
-  for (const gcode::Notice& notice : kept.notices) {
+void encode_plan(const jobs::RequestRecord& request, const Outcome& outcome, v1::Plan& message) {
+  message.set_name(request.name);
+  encode_options(request.options, *message.mutable_options());
+  encode_summary(outcome, request.options.planning.limits.axes, *message.mutable_summary());
+  message.mutable_summary()->set_max_chord_error_mm(request.max_chord_error);
+  for (const gcode::Notice& notice : request.notices) {
     v1::Notice& entry = *message.add_notices();
     entry.set_line(notice.line);
     entry.set_text(printable(notice.text, kMostNoticeBytes));
     entry.set_count(notice.count);
   }
+}
+
+void encode_plan(const jobs::KeptPlan& kept, v1::Plan& message) {
+  const planning::Plan& plan = kept.plan;
+  encode_plan(kept, {plan.summary, plan.trajectory.size(), plan.start, plan.trajectory.final_state().position},
+              message);
 }
 
 void encode_corner(const planning::Corner& corner, const planning::PlanOptions& options, v1::Corner& message) {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "server/jobs/cap_exceeded.h"
 #include "server/planning/range.h"
@@ -26,34 +25,29 @@ double shared_or_own(const Numbers& numbers, int point) { return numbers[numbers
 
 }  // namespace
 
-void PathDecoder::add(const v1::PathChunk& chunk) {
+const std::vector<planning::Segment>& PathDecoder::decode(const v1::PathChunk& chunk) {
   Violations violations;
   const int axes = static_cast<int>(options_.planning.limits.axes);
   const int points = chunk.points_mm_size() / axes;
-  if (points_ + static_cast<std::uint64_t>(points) > max_points_) {
+  if (static_cast<std::uint64_t>(points) > max_points_ - points_) {
     throw jobs::CapExceeded("points_per_plan", max_points_, "send the program in parts");
   }
   check_sizes(chunk, points, violations);
   violations.refuse();
 
+  segments_.clear();
   for (int point = 0; point < points && !violations.full(); ++point) {
     if (points_ == 0 && point == 0) {
-      path_.start = decode_point(chunk, point, violations);
+      start_ = decode_point(chunk, point, violations);
     } else {
-      path_.segments.push_back(decode_segment(chunk, point, violations));
+      segments_.push_back(decode_segment(chunk, point, violations));
     }
   }
   violations.refuse();
   decode_stops(chunk, points, violations);
   violations.refuse();
   points_ += static_cast<std::uint64_t>(points);
-}
-
-planning::Toolpath PathDecoder::finish() {
-  if (points_ < 2) {
-    refuse("path.points_mm", fmt::format("the path has {} points: give at least two, the start and the end", points_));
-  }
-  return std::move(path_);
+  return segments_;
 }
 
 void PathDecoder::check_sizes(const v1::PathChunk& chunk, int points, Violations& violations) const {
@@ -131,16 +125,15 @@ void PathDecoder::decode_stops(const v1::PathChunk& chunk, int points, Violation
     if (points_ + stop.point() == 0) {
       // The tool rests at the start anyway. To stay there is a segment of no length.
       if (stop.dwell_s() > 0) {
-        path_.segments.insert(path_.segments.begin(), {.end = path_.start,
-                                                       .feed = std::numeric_limits<double>::infinity(),
-                                                       .tolerance = options_.tolerance,
-                                                       .dwell = stop.dwell_s(),
-                                                       .stop = true});
+        segments_.insert(segments_.begin(), {.end = start_,
+                                             .feed = std::numeric_limits<double>::infinity(),
+                                             .tolerance = options_.tolerance,
+                                             .dwell = stop.dwell_s(),
+                                             .stop = true});
       }
       continue;
     }
-    planning::Segment& segment =
-        path_.segments[path_.segments.size() - static_cast<std::size_t>(points) + stop.point()];
+    planning::Segment& segment = segments_[segments_.size() - static_cast<std::size_t>(points) + stop.point()];
     if (segment.stop) violations.add(field + ".point", fmt::format("{} has a stop already: give one", stop.point()));
     segment.stop = true;
     segment.dwell = stop.dwell_s();

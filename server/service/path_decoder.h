@@ -1,9 +1,10 @@
-// A tool path from the chunks of points in which a client sends it.
+// The segments of a tool path from the chunks of points in which a client sends it.
 #pragma once
 
 #include <kcs/v1/planning.pb.h>
 
 #include <cstdint>
+#include <vector>
 
 #include "server/jobs/plan_request.h"
 #include "server/planning/toolpath.h"
@@ -18,11 +19,14 @@ class PathDecoder {
   PathDecoder(const jobs::RequestOptions& options, std::uint64_t max_points)
       : options_(options), max_points_(max_points) {}
 
-  // Throws planning::InvalidInput with all that is wrong in the chunk; jobs::CapExceeded for too many points.
-  void add(const v1::PathChunk& chunk);
+  // The segments that end in the chunk, valid until the next one. Throws planning::InvalidInput with all that is wrong
+  // in the chunk; jobs::CapExceeded for too many points.
+  const std::vector<planning::Segment>& decode(const v1::PathChunk& chunk);
 
-  // The whole path. Throws planning::InvalidInput if it has fewer than two points.
-  planning::Toolpath finish();
+  // How many points came.
+  std::uint64_t points() const { return points_; }
+  // The first of them, mm.
+  const planning::Vector& start() const { return start_; }
 
  private:
   // Whether each array has as many entries as the chunk's number of points asks for.
@@ -33,8 +37,9 @@ class PathDecoder {
 
   const jobs::RequestOptions& options_;
   const std::uint64_t max_points_;
-  planning::Toolpath path_;
-  std::uint64_t points_ = 0;  // in the chunks before
+  planning::Vector start_ = planning::Vector::Zero();
+  std::vector<planning::Segment> segments_;  // of the chunk
+  std::uint64_t points_ = 0;                 // in the chunks before
 };
 
 }  // namespace kcs::service

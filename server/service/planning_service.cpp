@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <future>
 #include <memory>
 #include <utility>
 
 #include "server/service/encode.h"
+#include "server/service/live_call.h"
 #include "server/service/setpoint_stream.h"
 #include "server/service/status.h"
 #include "server/service/upload.h"
@@ -17,14 +19,14 @@
 namespace kcs::service {
 namespace {
 
-constexpr std::size_t kCornersPerBatch = 1000;
 // How soon a client that gave up is noticed while its plan is made.
 constexpr std::chrono::milliseconds kCancellationCheck{50};
 
-v1::CreatePlanRequest parse(grpc::ByteBuffer& bytes) {
-  v1::CreatePlanRequest message;
-  if (!grpc::SerializationTraits<v1::CreatePlanRequest>::Deserialize(&bytes, &message).ok()) {
-    refuse("content", "the message is not a CreatePlanRequest of kcs.v1");
+template <typename Request>
+Request parse(grpc::ByteBuffer& bytes) {
+  Request message;
+  if (!grpc::SerializationTraits<Request>::Deserialize(&bytes, &message).ok()) {
+    refuse("content", "the message is not a " + Request::descriptor()->name() + " of kcs.v1");
   }
   return message;
 }
@@ -48,14 +50,20 @@ void require_name(const std::string& name) {
 }  // namespace
 
 PlanningService::PlanningService(jobs::PlanDesk& desk, const Caps& caps)
-    : desk_(desk), caps_(caps), uploads_("uploads", caps.uploads), streams_("streams", caps.streams) {
-  const auto* method =
-      v1::Plan::descriptor()->file()->FindServiceByName("PlanningService")->FindMethodByName("CreatePlan");
-  using Handler = grpc::internal::ClientStreamingHandler<PlanningService, grpc::ByteBuffer, v1::Plan>;
-  const auto handle = [](PlanningService* self, grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan) {
-    return self->create_plan(context, reader, plan);
-  };
-  MarkMethodStreamed(method->index(), std::make_unique<Handler>(handle, this).release());
+    : desk_(desk),
+      caps_(caps),
+      uploads_("uploads", caps.uploads),
+      streams_("streams", caps.streams),
+      live_streams_("live_streams", caps.live_streams) {
+  using Create = grpc::internal::ClientStreamingHandler<PlanningService, grpc::ByteBuffer, v1::Plan>;
+  using Live = grpc::internal::BidiStreamingHandler<PlanningService, grpc::ByteBuffer, v1::PlanLiveResponse>;
+  handle("CreatePlan", std::make_unique<Create>(std::mem_fn(&PlanningService::create_plan), this));
+  handle("PlanLive", std::make_unique<Live>(std::mem_fn(&PlanningService::plan_live), this));
+}
+
+void PlanningService::handle(const char* method, std::unique_ptr<grpc::internal::MethodHandler> handler) {
+  const auto* service = v1::Plan::descriptor()->file()->FindServiceByName("PlanningService");
+  MarkMethodStreamed(service->FindMethodByName(method)->index(), handler.release());
 }
 
 template <typename Work>
@@ -74,13 +82,27 @@ grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadRe
     const Gate::Pass pass(uploads_);
     Upload upload(caps_);
     grpc::ByteBuffer bytes;
-    while (reader->Read(&bytes)) upload.add(parse(bytes));
+    while (reader->Read(&bytes)) upload.add(parse<v1::CreatePlanRequest>(bytes));
     if (context->IsCancelled()) return grpc::Status::CANCELLED;
     const std::shared_future<jobs::PlanPointer> planned = desk_.submit(upload.finish());
     while (planned.wait_for(kCancellationCheck) != std::future_status::ready) {
       if (context->IsCancelled()) return grpc::Status::CANCELLED;
     }
     encode_plan(*planned.get(), *plan);
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream* stream) {
+  return answer("PlanLive", [&]() -> grpc::Status {
+    const Gate::Pass pass(live_streams_);
+    LiveCall call(caps_, [stream](const v1::PlanLiveResponse& response) {
+      if (!stream->Write(response)) throw Cancelled();
+    });
+    grpc::ByteBuffer bytes;
+    while (stream->Read(&bytes)) call.add(parse<v1::PlanLiveRequest>(bytes));
+    if (context->IsCancelled()) throw Cancelled();
+    call.finish();
     return grpc::Status::OK;
   });
 }

@@ -5,6 +5,7 @@
 #include <kcs/v1/planning.grpc.pb.h>
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -34,10 +35,15 @@ class PlanningService final : public v1::PlanningService::Service {
 
  private:
   using UploadReader = grpc::ServerReader<grpc::ByteBuffer>;
+  using LiveStream = grpc::ServerReaderWriter<v1::PlanLiveResponse, grpc::ByteBuffer>;
 
-  // Stands in for CreatePlan. It parses the messages itself, because gRPC's own reader takes one that it cannot parse
-  // for the end of the upload: the beginning of a path would be planned as if it were the whole.
+  // Stand in for CreatePlan and PlanLive. They parse the messages themselves, because gRPC's own reader takes one that
+  // it cannot parse for the end of the upload: the beginning of a path would be planned as if it were the whole.
   grpc::Status create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan);
+  grpc::Status plan_live(grpc::ServerContext* context, LiveStream* stream);
+
+  // Has `handler` called for a method.
+  void handle(const char* method, std::unique_ptr<grpc::internal::MethodHandler> handler);
 
   // Runs `work`, which returns a grpc::Status, and lets no exception out: none may cross into gRPC.
   template <typename Work>
@@ -50,6 +56,7 @@ class PlanningService final : public v1::PlanningService::Service {
   const Caps& caps_;
   Gate uploads_;
   Gate streams_;
+  Gate live_streams_;
   std::atomic<bool> closed_ = false;
   std::atomic<int> running_ = 0;
 };

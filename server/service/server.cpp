@@ -52,7 +52,7 @@ grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const Caps& caps) {
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ResourceQuota quota("kcsd");
-  quota.SetMaxThreads(static_cast<int>(caps.uploads + caps.streams) + kSpareThreads);
+  quota.SetMaxThreads(static_cast<int>(caps.uploads + caps.streams + caps.live_streams) + kSpareThreads);
   builder.SetResourceQuota(quota);
   builder.SetMaxReceiveMessageSize(static_cast<int>(caps.message_bytes));
   // A compressed message is measured only when it has been blown up to a thousand times its size.

@@ -7,6 +7,7 @@
 
 #include "server/jobs/plan_request.h"
 #include "server/motion/sampler.h"
+#include "server/service/setpoint_columns.h"
 
 namespace kcs::service {
 
@@ -22,12 +23,9 @@ class SetpointStream {
  private:
   jobs::PlanPointer plan_;
   motion::Sampler sampler_;
-  bool velocity_ = false;
-  bool acceleration_ = false;
-  bool jerk_ = false;
-  std::uint64_t next_ = 0;  // index of the next setpoint
-  std::uint64_t end_ = 0;   // one past the last one wanted
-  std::uint64_t batch_size_;
+  SetpointColumns columns_;
+  std::uint64_t next_;     // index of the next setpoint
+  std::uint64_t end_ = 0;  // one past the last one wanted
 };
 
 }  // namespace kcs::service

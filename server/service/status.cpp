@@ -3,9 +3,12 @@
 #include <google/rpc/error_details.pb.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <exception>
 #include <future>
 #include <new>
+#include <string>
+#include <utility>
 
 #include "server/jobs/cap_exceeded.h"
 #include "server/planning/invalid_input.h"
@@ -18,13 +21,26 @@ namespace {
 constexpr std::size_t kMostDetailBytes = 4096;
 constexpr std::size_t kMostTextBytes = 400;
 
+// The planner's names of fields that the contract calls by others.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFields = {
+    {{"path, start_speed", "options.start_speed_mm_s"},
+     {"path, start_acceleration", "options.start_acceleration_mm_s2"},
+     {"path, end_speed", "options.end_speed_mm_s"}}};
+
 constexpr std::string_view kStopping = "the server is stopping; try again later";
+
+std::string_view contract_name(std::string_view field) {
+  for (const auto& [name, contract_name] : kFields) {
+    if (field == name) return contract_name;
+  }
+  return field;
+}
 
 grpc::Status bad_request(const planning::InvalidInput& refused) {
   google::rpc::BadRequest details;
   for (const planning::Violation& violation : refused.violations()) {
     auto& entry = *details.add_field_violations();
-    entry.set_field(printable(violation.field, kMostTextBytes));
+    entry.set_field(printable(contract_name(violation.field), kMostTextBytes));
     entry.set_description(printable(violation.description, kMostTextBytes));
     if (details.ByteSizeLong() > kMostDetailBytes) {
       details.mutable_field_violations()->RemoveLast();
@@ -33,7 +49,8 @@ grpc::Status bad_request(const planning::InvalidInput& refused) {
   }
   google::rpc::Status status;
   status.set_code(grpc::StatusCode::INVALID_ARGUMENT);
-  status.set_message(printable(refused.what(), kMostTextBytes));
+  const planning::Violation& first = refused.violations().front();
+  status.set_message(printable(std::string(contract_name(first.field)) + ": " + first.description, kMostTextBytes));
   status.add_details()->PackFrom(details);
   return {grpc::StatusCode::INVALID_ARGUMENT, status.message(), status.SerializeAsString()};
 }
@@ -58,6 +75,8 @@ grpc::Status status_of_current_exception(std::string_view method) {
           "the server does not keep this plan; send its request again: the same request gives the same plan");
     } catch (const Stopping&) {
       return failure(grpc::StatusCode::UNAVAILABLE, kStopping);
+    } catch (const Cancelled&) {
+      return failure(grpc::StatusCode::CANCELLED, "the client gave up");
     } catch (const std::future_error&) {
       return failure(grpc::StatusCode::UNAVAILABLE, kStopping);
     } catch (const std::bad_alloc&) {

@@ -12,6 +12,7 @@ namespace kcs::service {
 //   jobs::CapExceeded        RESOURCE_EXHAUSTED, which names the cap
 //   NotKept                  NOT_FOUND
 //   Stopping                 UNAVAILABLE
+//   Cancelled                CANCELLED
 //   std::future_error        UNAVAILABLE: the server stopped before the plan was made
 //   std::bad_alloc           RESOURCE_EXHAUSTED
 //   anything else            INTERNAL with the reason: a defect of kcs
@@ -22,5 +23,8 @@ struct NotKept {};
 
 // Thrown where a call comes after the server was told to stop.
 struct Stopping {};
+
+// Thrown where a call goes on whose client is gone.
+struct Cancelled {};
 
 }  // namespace kcs::service

@@ -3,15 +3,11 @@
 
 #include <kcs/v1/planning.pb.h>
 
-#include <cstdint>
 #include <optional>
-#include <string_view>
 
-#include "server/gcode/reader.h"
 #include "server/jobs/plan_request.h"
-#include "server/jobs/request_digest.h"
 #include "server/service/caps.h"
-#include "server/service/path_decoder.h"
+#include "server/service/incoming_path.h"
 
 namespace kcs::service {
 
@@ -31,21 +27,11 @@ class Upload {
   jobs::PlanRequest finish();
 
  private:
-  void add_options(const v1::PlanOptions& message);
-  void add_path(const v1::PathChunk& chunk);
-  void add_gcode(std::string_view text);
-  // Calls the G-code reader, and names the server's own cap where the reader reaches it.
-  template <typename Read>
-  void within_caps(const Read& read) const;
+  void begin(const v1::PlanOptions& options);
 
   const Caps& caps_;
-  std::optional<jobs::RequestOptions> options_;
-  // One of these two, from the first piece of the path on.
-  std::optional<PathDecoder> path_;
-  std::optional<gcode::Reader> gcode_;
-  planning::Toolpath gcode_path_;
-  std::optional<jobs::RequestDigest> digest_;
-  std::uint64_t gcode_bytes_ = 0;
+  std::optional<IncomingPath> incoming_;  // once the options came
+  jobs::PlanRequest request_;
 };
 
 }  // namespace kcs::service

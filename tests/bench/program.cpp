@@ -16,8 +16,8 @@ std::string text_of(const std::string& file) {
 }
 
 planning::Toolpath toolpath_of(const std::string& gcode, const gcode::Options& options) {
-  planning::Toolpath path;
-  gcode::Reader reader(options, path);
+  planning::Toolpath path{{.start = options.start}};
+  gcode::Reader reader(options, [&path](const planning::Segment& segment) { path.segments.push_back(segment); });
   reader.read(gcode);
   reader.finish();
   return path;

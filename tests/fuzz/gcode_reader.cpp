@@ -27,7 +27,8 @@ Outcome read(std::string_view program, std::size_t axes, std::size_t piece) {
   options.max_blocks = 2000;
   Outcome outcome;
   try {
-    kcs::gcode::Reader reader(options, outcome.path);
+    kcs::gcode::Reader reader(options,
+                              [&outcome](const Segment& segment) { outcome.path.segments.push_back(segment); });
     for (; !program.empty(); program.remove_prefix(std::min(piece, program.size()))) {
       reader.read(program.substr(0, piece));
     }

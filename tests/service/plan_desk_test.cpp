@@ -13,7 +13,7 @@ namespace kcs::jobs {
 namespace {
 
 PlanRequest right_angle(const std::string& name) {
-  PlanRequest request{.name = name};
+  PlanRequest request{{.name = name}};
   planning::AxisLimits& limits = request.options.planning.limits;
   limits.axes = 2;
   limits.velocity = {100, 100, 0};

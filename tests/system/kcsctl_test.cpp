@@ -1,6 +1,7 @@
 // The program kcsctl: what it prints and writes, and how it fails, with the service inside and with a real kcsd.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -152,6 +153,51 @@ TEST_F(Kcsctl, AFailureLeavesTheOldFileAlone) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(read(path("out.csv")), "old");
   EXPECT_EQ(files(), 3);
+}
+
+TEST_F(Kcsctl, LiveGivesWhatPlanAndStreamGive) {
+  const Result live = run({"live", "--json", program(), "-o", path("live.csv"), "--period", "0.002"});
+  ASSERT_EQ(live.exit_code, 0) << live.errors;
+  EXPECT_EQ(live.output, run({"plan", "--json", program()}).output);
+  ASSERT_EQ(run({"stream", program(), "-o", path("stream.csv"), "--period", "0.002"}).exit_code, 0);
+  EXPECT_EQ(read(path("live.csv")), read(path("stream.csv")));
+  EXPECT_NE(run({"live", program()}).output.find("Cycle time"), std::string::npos);
+  EXPECT_EQ(run({"live", program(), "-o", "-"}).output.substr(0, 8), "t,x,y,z\n");
+}
+
+TEST_F(Kcsctl, LiveWritesSetpointsBeforeTheProgramEnds) {
+  const fs::path pipe = path("program.pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  ChildProcess kcsctl({KCSCTL, "live", pipe.string(), "-o", "-"});
+  std::ofstream moves(pipe);
+  for (int i = 1; i <= 1000; ++i) moves << "G1 F6000 X" << i << " Y" << i % 2 << "\n";
+  moves.flush();
+  EXPECT_EQ(kcsctl.read_line(), "t,x,y,z");
+  EXPECT_EQ(kcsctl.read_line(), "0,0,0,0");
+  moves.close();
+  while (!kcsctl.read_line().empty()) continue;
+  EXPECT_EQ(kcsctl.wait(), 0) << kcsctl.errors();
+}
+
+TEST_F(Kcsctl, LiveNamesFaultsAndLeavesNothingBehind) {
+  std::ofstream(path("bad.ngc")) << "G1 X1 F100\nG1 X#<x>\n";
+  const Result result = run({"live", path("bad.ngc"), "-o", path("out.csv")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.errors.rfind(path("bad.ngc") + ":2:", 0), 0) << result.errors;
+  EXPECT_EQ(files(), 2) << "the two programs, nothing else";
+  EXPECT_EQ(run({"live", path("none.ngc")}).exit_code, 4);
+}
+
+TEST_F(Kcsctl, SpeedsAtTheEndsAreTaken) {
+  const json plan = json::parse(
+      run({"plan", "--json", program(), "--start-speed", "20", "--start-acceleration", "50", "--end-speed", "10"})
+          .output);
+  EXPECT_EQ(plan["options"]["start_speed_mm_s"], 20);
+  EXPECT_EQ(plan["options"]["start_acceleration_mm_s2"], 50);
+  EXPECT_EQ(plan["options"]["end_speed_mm_s"], 10);
+  const Result refused = run({"plan", program(), "--start-speed", "5000"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(refused.errors.rfind("kcsctl: options.start_speed_mm_s: ", 0), 0) << refused.errors;
 }
 
 // As Ctrl-C does it. `env` sees to it that kcsctl listens to it, however the tests were started.

@@ -56,6 +56,19 @@ TEST(CommandLine, EveryOptionArrives) {
   EXPECT_EQ(options.channels, (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity}));
 }
 
+TEST(CommandLine, LiveTakesWhatStreamTakesAndSpeeds) {
+  const auto [options, message] = parse({"live", "-", "--channels", "jerk", "--json", "--start-speed", "1",
+                                         "--start-acceleration", "-2", "--end-speed", "3"});
+  ASSERT_FALSE(message.has_value()) << message->text;
+  EXPECT_EQ(options.command, Command::kLive);
+  EXPECT_EQ(options.output, "") << "setpoints only where they are wanted";
+  EXPECT_TRUE(options.json);
+  EXPECT_EQ(options.channels, (std::vector<client::Channel>{client::Channel::kJerk}));
+  EXPECT_EQ(options.plan.start_speed_mm_s, 1);
+  EXPECT_EQ(options.plan.start_acceleration_mm_s2, -2);
+  EXPECT_EQ(options.plan.end_speed_mm_s, 3);
+}
+
 TEST(CommandLine, NamesOfChoicesMayBeInCapitals) {
   const auto [options, message] = parse({"plan", "part.ngc", "--strategy", "Exact-Stop", "--tolerance-kind", "CORNER"});
   ASSERT_FALSE(message.has_value()) << message->text;

@@ -43,6 +43,7 @@ class FakeServer : public v1::PlanningService::Service {
       };
   std::function<grpc::Status(grpc::ServerContext&)> on_get = [](grpc::ServerContext&) { return grpc::Status::OK; };
   std::function<grpc::Status(grpc::ServerContext&)> on_create = on_get;
+  double end_speed = 0;  // of the plan, mm/s
 
   // Does not answer until the client gives up.
   static grpc::Status hang(grpc::ServerContext& context) {
@@ -68,6 +69,7 @@ class FakeServer : public v1::PlanningService::Service {
   grpc::Status GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest*, v1::Plan* plan) override {
     plan->set_name(kPlan);
     plan->mutable_options()->mutable_machine()->set_axes(2);
+    plan->mutable_options()->set_end_speed_mm_s(end_speed);
     plan->mutable_summary()->set_cycle_time_s(1);
     return on_get(*context);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "client/sdk/error.h"
 #include "tests/unit/gateway/fake_server.h"
 
 namespace kcs::gateway {
@@ -46,6 +47,12 @@ TEST(Playback, SlowServersAreWaitedForAsLongAsSetpointsCome) {
     return grpc::Status::OK;
   };
   EXPECT_EQ(play_fast(server, 0.5).state, PlayState::kFinished);
+}
+
+TEST(Playback, RefusesAPlanThatDoesNotEndAtRest) {
+  FakeServer server;
+  server.end_speed = 10;
+  EXPECT_THROW(play_fast(server, 1), client::Error);
 }
 
 }  // namespace

@@ -21,12 +21,13 @@ Cap cap_of(std::string_view program, const Options& options) {
 
 TEST(Execution, RunsTheFirstRoundOfALoopWhileItComes) {
   planning::Toolpath path;
-  Reader reader({}, path);
-  reader.read("o1 repeat [2]\nG0 X1\n");
+  Reader reader({}, into(path));
+  reader.read("o1 repeat [2]\nG0 X1\nX2\n");
   EXPECT_EQ(path.segments.size(), 1U);
-  reader.read("X2\no1 endrepeat\n");
-  EXPECT_EQ(path.segments.size(), 4U);
+  reader.read("o1 endrepeat\n");
+  EXPECT_EQ(path.segments.size(), 3U);
   reader.finish();
+  EXPECT_EQ(path.segments.size(), 4U);
 }
 
 TEST(Execution, LeavesDeletedBlocksOutOfLoopsAndSubroutines) {

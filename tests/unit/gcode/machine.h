@@ -39,9 +39,8 @@ class Machine {
   }
 
  private:
-  planning::Toolpath path_;
   Notices notices_;
-  Interpreter interpreter_{{}, path_, notices_};
+  Interpreter interpreter_{{}, [](const planning::Segment&) {}, notices_};
   Parameters parameters_;
   Words words_;
   std::uint32_t line_ = 0;

@@ -36,9 +36,14 @@ inline std::vector<std::uint32_t> lines_of(const Program& program) {
   return lines;
 }
 
+// Gathers the segments in `path`, which must live as long.
+inline TakeSegment into(planning::Toolpath& path) {
+  return [&path](const planning::Segment& segment) { path.segments.push_back(segment); };
+}
+
 inline Program read_program(std::string_view text, const Options& options = {}) {
-  Program program;
-  Reader reader(options, program.path);
+  Program program{.path = {{.start = options.start}}};
+  Reader reader(options, into(program.path));
   reader.read(text);
   reader.finish();
   program.notices = reader.notices();

@@ -38,7 +38,7 @@ void expect_same(const Program& a, const Program& b) {
 
 Program read_in_pieces(std::string_view text, std::mt19937_64& random, std::size_t longest) {
   Program program;
-  Reader reader({}, program.path);
+  Reader reader({}, into(program.path));
   while (!text.empty()) {
     const std::size_t length = std::min<std::size_t>(text.size(), random() % (longest + 1));
     reader.read(text.substr(0, length));
@@ -71,8 +71,7 @@ TEST(Reader, CountsLinesAlikeWithEveryLineEnd) {
 TEST(Reader, ReadsTheLastLineWithoutAnEnd) { EXPECT_EQ(read_program("G0 X1\nG0 X2").end().x(), 2); }
 
 TEST(Reader, RefusesALineThatIsTooLongWithoutKeepingIt) {
-  planning::Toolpath path;
-  Reader reader({}, path);
+  Reader reader({}, [](const planning::Segment&) {});
   const std::string piece(1000, ' ');
   EXPECT_THROW(
       {

@@ -1,0 +1,64 @@
+#include "server/service/live_call.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "server/service/decode.h"
+#include "server/service/encode.h"
+
+namespace kcs::service {
+
+LiveCall::LiveCall(const Caps& caps, SendLive send) : caps_(caps), send_(std::move(send)) {}
+
+void LiveCall::add(const v1::PlanLiveRequest& message) {
+  if (incoming_ && message.has_output()) refuse("output", "came late: send it once, beside the options");
+  add_message(message, incoming_, [&](const v1::PlanOptions& options) { begin(options, message.output()); });
+}
+
+void LiveCall::begin(const v1::PlanOptions& options, const v1::LiveOutput& output) {
+  incoming_.emplace(decode_options(options), PathCaps{.chords_per_arc = caps_.points_per_plan},
+                    [this](const planning::Segment& segment) { plan(segment); });
+  const planning::PlanOptions& planning = incoming_->options().planning;
+  setpoints_.emplace(output, planning.limits.axes, send_);
+  if (output.corners()) corners_.emplace(planning, send_);
+}
+
+void LiveCall::plan(const planning::Segment& segment) {
+  if (!planner_) {
+    const jobs::RequestOptions& options = incoming_->options();
+    planner_.emplace(options.ends(incoming_->start()), options.planning, *this);
+  }
+  planner_->add(segment);
+  flush();
+}
+
+void LiveCall::finish() {
+  if (!incoming_) refuse("options", "the request is empty: send the options first, then the path");
+  const jobs::RequestRecord request = incoming_->finish();
+  if (!planner_) refuse("path", "has no segment; give at least one move");
+  const planning::Summary summary = planner_->finish();
+  const motion::State end = planner_->end_state();
+  setpoints_->finish(end);
+  flush();
+  v1::PlanLiveResponse response;
+  encode_plan(request, {summary, phases_, incoming_->start(), end.position}, *response.mutable_plan());
+  send_(response);
+  spdlog::info("planned {} live: {} segments, cycle time {:.3f} s", request.name, summary.segments, summary.cycle_time);
+}
+
+void LiveCall::flush() {
+  setpoints_->flush();
+  if (corners_) corners_->flush();
+}
+
+void LiveCall::take(const motion::Phase& phase) {
+  ++phases_;
+  setpoints_->add(phase);
+}
+
+void LiveCall::take(const planning::Corner& corner) {
+  if (corners_) corners_->add(corner);
+}
+
+}  // namespace kcs::service

@@ -1,0 +1,49 @@
+// What a call of PlanLive does: path in, setpoints out.
+#pragma once
+
+#include <kcs/v1/planning.pb.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "server/planning/live_planner.h"
+#include "server/service/caps.h"
+#include "server/service/incoming_path.h"
+#include "server/service/live_corners.h"
+#include "server/service/live_setpoints.h"
+
+namespace kcs::service {
+
+// Plans each message's piece of the path, and sends what is settled by it, before the next one is taken: nothing piles
+// up, and a client that takes no setpoints has to wait with its path. Memory: that of the planner, of one message and
+// of one batch. Both methods throw planning::InvalidInput, jobs::CapExceeded, and what `send` throws.
+class LiveCall final : public planning::PlanReceiver {
+ public:
+  // Keeps a reference to `caps`.
+  LiveCall(const Caps& caps, SendLive send);
+  // Its parts refer to each other.
+  LiveCall(const LiveCall&) = delete;
+  LiveCall& operator=(const LiveCall&) = delete;
+
+  void add(const v1::PlanLiveRequest& message);
+
+  // After the last message: sends the rest, and the plan.
+  void finish();
+
+ private:
+  void begin(const v1::PlanOptions& options, const v1::LiveOutput& output);
+  void plan(const planning::Segment& segment);
+  void flush();
+  void take(const motion::Phase& phase) override;
+  void take(const planning::Corner& corner) override;
+
+  const Caps& caps_;
+  SendLive send_;
+  std::optional<IncomingPath> incoming_;  // once the options came
+  std::optional<LiveSetpoints> setpoints_;
+  std::optional<LiveCorners> corners_;            // if they are wanted
+  std::optional<planning::LivePlanner> planner_;  // from the first segment on
+  std::uint64_t phases_ = 0;                      // that are settled
+};
+
+}  // namespace kcs::service

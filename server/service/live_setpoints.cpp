@@ -1,0 +1,59 @@
+#include "server/service/live_setpoints.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <utility>
+
+namespace kcs::service {
+namespace {
+
+double checked_period(double period) {
+  Violations violations;
+  violations.check_range("output.period_s", period, kMinPeriod, kMaxPeriod, "s");
+  violations.refuse();
+  return period;
+}
+
+}  // namespace
+
+LiveSetpoints::LiveSetpoints(const v1::LiveOutput& output, std::size_t axes, SendLive send)
+    : columns_(output, "output.", axes),
+      period_(checked_period(output.period_s())),
+      sampler_(period_),
+      send_(std::move(send)) {}
+
+void LiveSetpoints::add(const motion::Phase& phase) {
+  if (phase.end_time() / period_ > kMostSetpoints) {
+    refuse("output.period_s",
+           fmt::format("cuts a motion of {} s into too many setpoints: give a longer one", phase.end_time()));
+  }
+  sampler_.add(phase);
+  put_settled();
+}
+
+void LiveSetpoints::finish(const motion::State& end) {
+  sampler_.finish(end);
+  put_settled();
+  flush();
+}
+
+void LiveSetpoints::flush() {
+  if (size_ == 0) return;
+  v1::SetpointBatch& batch = *response_.mutable_setpoints();
+  SetpointColumns::cut(batch, size_);
+  batch.set_first_index(sampler_.given() - size_);
+  batch.set_end_of_path(sampler_.ended());
+  batch.set_setpoint_count(sampler_.ended() ? sampler_.given() : 0);
+  send_(response_);
+  size_ = 0;
+}
+
+void LiveSetpoints::put_settled() {
+  while (const auto setpoint = sampler_.next()) {
+    if (size_ == 0) columns_.begin(*response_.mutable_setpoints(), columns_.batch_size());
+    columns_.set(size_++, *setpoint);
+    if (size_ == columns_.batch_size()) flush();
+  }
+}
+
+}  // namespace kcs::service
