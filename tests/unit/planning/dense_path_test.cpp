@@ -168,6 +168,23 @@ TEST(DensePath, KeepsTheFeedOfEachSegment) {
   EXPECT_LT(result.summary.cycle_time, 30 / 100. + 32.8 / 20. + 0.1);
 }
 
+TEST(DensePath, IsSlowOnlyWhereItsFeedIs) {
+  Toolpath path = circle();
+  for (std::size_t i = 200; i < 300; ++i) path.segments[i].feed = 20;
+  const Plan result = plan(path, dense_options());
+  EXPECT_EQ(result.summary.overlapping, kChords - 1);
+  expect_feed(result, 200, 299, 20);
+  EXPECT_LT(result.summary.cycle_time, 1.2);
+}
+
+TEST(DensePath, IsSmoothWhereAnAxisIsMuchWeaker) {
+  PlanOptions options = dense_options();
+  options.limits.acceleration.x() = kAcceleration / 4;
+  const Plan result = plan(circle(), options);
+  EXPECT_EQ(result.summary.overlapping, kChords - 1);
+  expect_kept(result, options);
+}
+
 TEST(DensePath, KeepsTheToleranceOfEachSegment) {
   Toolpath path = circle();
   for (std::size_t i = 0; i < kChords; ++i) path.segments[i].tolerance = i % 2 == 0 ? 0.002 : 0.05;
