@@ -11,6 +11,15 @@ namespace {
 
 // From this share on a corner is too far away.
 constexpr double kCut = 0.8;
+// The point that was drawn to a corner stays the one, unless another is nearer than this share of its distance: each
+// change of points upsets the motion around.
+constexpr double kLoyalty = 0.3;
+// Two ways are the same if they differ by less than this share of the tolerance.
+constexpr double kSame = 1e-6;
+
+// A change of feed may take this much more than the least limits of the axes: it only warns, and what is too much the
+// search will find. Less costs cycle time, more costs rounds.
+constexpr double kHurry = 3;
 
 // How precisely a contour error is known, as a share of the tolerance.
 constexpr double kErrorResolution = 1e-4;
@@ -19,25 +28,6 @@ constexpr double kEmphasis = 1.1;
 constexpr double kGoesBack = 1.5;
 // A tool that goes back by less than this share of an axis' speed stands.
 constexpr double kStanding = 1e-10;
-
-// Searching aims at this share of the limits, inverted.
-constexpr double kAimLimits = 1.02;
-// The change of a step in one round; a step that is too far away from the path is stretched by this share of the
-// excess.
-constexpr double kShortest = 0.85, kLongest = 1.15;
-constexpr double kStretchAway = 0.3;
-
-double square(double value) { return value * value; }
-double cube(double value) { return value * value * value; }
-double sixth_power(double value) { return square(cube(value)); }
-
-// Of numbers near to 1: good to 1e-4 from 0.6 to 1.6.
-double cube_root(double value) { return (5 + value * (35 + value * 14)) / (14 + value * (35 + value * 5)); }
-
-// Of the differences that begin at point j − back; at the ends, of the nearest one.
-double share_at(const std::vector<double>& shares, std::size_t j, std::size_t back) {
-  return shares[std::min(std::max(j, back) - back, shares.size() - 1)];
-}
 
 // From a point to the spline around the control point k, mm: to the chords between its knots.
 double distance_near(const TimeSpline& spline, std::size_t k, const Vector& point) {
@@ -66,12 +56,24 @@ double share_of(const Vector& difference, const Vector& per_limit) {
 
 }  // namespace
 
+void MotionShares::begin(const StretchPath& path, const TimeSpline* before) {
+  first_corner_ = 0;
+  if (before == nullptr) return;
+  reached_.assign(path.legs().size(), false);
+  for (std::size_t j = 0; j < before->pieces(); ++j) {
+    const auto [first, last] = path.legs_between(before->ways[j], before->ways[j + 3]);
+    pass_corners(path, before->phase(j, Vector::Zero()), first, last);
+  }
+  while (reached_[first_corner_]) ++first_corner_;  // nothing comes near to the end of the last leg
+}
+
 void MotionShares::measure(const StretchPath& path, const motion::AxisLimits& limits, TimeSpline& spline,
                            std::vector<std::size_t>& legs, bool closely) {
   measure_places(path, spline, legs, closely);
   measure_corners(path, spline);
   largest_place_ = *std::max_element(place_.begin(), place_.end());
   measure_limits(path, limits, spline);
+  measure_haste(limits, spline);
 }
 
 void MotionShares::raise(std::size_t from, std::size_t count, double share) {
@@ -83,6 +85,7 @@ void MotionShares::measure_places(const StretchPath& path, TimeSpline& spline, s
   const auto& points = spline.points;
   const std::size_t size = points.size();
   place_.resize(size);
+  drawn_to_ = spline.ways;
   place_[0] = place_[size - 1] = 0;
   const auto measure = [&](const Vector& point, std::size_t leg) {
     const Projection at = path.project(point, leg);
@@ -111,13 +114,17 @@ void MotionShares::measure_corners(const StretchPath& path, TimeSpline& spline) 
   const auto legs = path.legs();
   const auto& ways = spline.ways;
   std::size_t k = 1;
-  for (std::size_t i = path.leg_at(ways[1]); i + 1 < legs.size() && path.way(i + 1) < ways[ways.size() - 2]; ++i) {
+  for (std::size_t i = first_corner_; i + 1 < legs.size() && path.way(i + 1) < ways[ways.size() - 2]; ++i) {
     if (!path.may_be_missed(i)) continue;
     while (k + 3 < ways.size() && ways[k + 1] < path.way(i + 1)) ++k;
     const double share = distance_near(spline, k, path.corners()[i + 1]) / path.reach(i);
     raise(k - 1, 3, share);
     if (share < kCut) continue;
-    const std::size_t drawn = path.way(i + 1) - ways[k] < ways[k + 1] - path.way(i + 1) ? k : k + 1;
+    const auto away = [&](std::size_t point) {
+      const bool was_drawn = std::abs(drawn_to_[point] - path.way(i + 1)) <= kSame * path.tolerance();
+      return (was_drawn ? kLoyalty : 1) * std::abs(ways[point] - path.way(i + 1));
+    };
+    const std::size_t drawn = away(k) < away(k + 1) ? k : k + 1;
     if (drawn > 2 && drawn + 3 < ways.size()) spline.ways[drawn] = path.way(i + 1);
   }
 }
@@ -126,6 +133,7 @@ void MotionShares::measure_limits(const StretchPath& path, const motion::AxisLim
   const auto& points = spline.points;
   const std::size_t size = points.size();
   speed_.resize(size - 1);
+  feeds_.resize(size - 1);
   acceleration_.resize(size - 2);
   jerk_.resize(size - 3);
   const double step = spline.step;
@@ -136,13 +144,37 @@ void MotionShares::measure_limits(const StretchPath& path, const motion::AxisLim
   for (std::size_t j = 0; j + 1 < size; ++j) {
     const Vector first = points[j + 1] - points[j], second = first - first_before;
     // Of all pieces that it is part of.
-    const double feed =
+    const double feed = feeds_[j] =
         path.feed_between(spline.ways[std::max<std::size_t>(j, 2) - 2], spline.ways[std::min(size - 1, j + 3)]);
     speed_[j] = std::max(first.norm() / (feed * step), share_of(first, per_velocity));
     if (j > 0) acceleration_[j - 1] = share_of(second, per_acceleration);
     if (j > 1) jerk_[j - 2] = share_of(second - second_before, per_jerk);
     first_before = first;
     second_before = second;
+  }
+}
+
+// Speed falls in no time only on paper: around a lower feed, the tool can be as much faster as the axes' least limits
+// let it become in the time between.
+void MotionShares::measure_haste(const motion::AxisLimits& limits, const TimeSpline& spline) {
+  haste_ = speed_;
+  const auto axes = static_cast<Eigen::Index>(limits.axes);
+  const double acceleration = kHurry * limits.acceleration.head(axes).minCoeff();
+  const double jerk = kHurry * limits.jerk.head(axes).minCoeff();
+  const double ramp = acceleration / jerk;
+  const auto change = [&](double time) {  // from one steady speed to another
+    return time < 2 * ramp ? jerk * time * time / 4 : acceleration * (time - ramp);
+  };
+  for (std::size_t j = 0; j + 1 < feeds_.size(); ++j) {
+    if (feeds_[j] == feeds_[j + 1]) continue;
+    const double low = std::min(feeds_[j], feeds_[j + 1]);
+    const bool rises = feeds_[j] == low;
+    for (std::size_t n = 1; rises ? j + n < feeds_.size() : n <= j + 1; ++n) {
+      const std::size_t i = rises ? j + n : j + 1 - n;
+      const double reached = low + change(static_cast<double>(n) * spline.step);
+      if (reached >= feeds_[i]) break;
+      haste_[i] = std::max(haste_[i], spline.velocity(i).norm() / reached);
+    }
   }
 }
 
@@ -153,38 +185,8 @@ double MotionShares::slower() const {
   return std::max({largest(speed_), std::sqrt(largest(acceleration_)), std::cbrt(largest(jerk_))});
 }
 
-// A step that takes x times as long has 1/x of the speed, 1/x² of the acceleration and 1/x³ of the jerk: what they ask
-// for is compared by its sixth power, so that there is one root to take.
-const std::vector<double>& MotionShares::paces(bool finishing, bool urgent) {
-  const std::size_t steps = speed_.size();
-  const auto power = [urgent](double pace) { return urgent ? sixth_power(pace) : square(sixth_power(pace)); };
-  const double least = power(finishing ? 1 : kShortest), most = power(kLongest);
-  wishes_.resize(steps + 4);  // two more at each end
-  for (std::size_t j = 0; j < steps; ++j) {
-    double wish = std::max(
-        {sixth_power(kAimSpeed * speed_[j]),
-         cube(kAimLimits * std::max(share_at(acceleration_, j, 1), share_at(acceleration_, j, 0))),
-         square(kAimLimits * std::max({share_at(jerk_, j, 2), share_at(jerk_, j, 1), share_at(jerk_, j, 0)}))});
-    if (finishing) {
-      const double away = std::max({place_[j], place_[j + 1], 1.0}) - 1;
-      wish = std::max(wish, sixth_power(1 + kStretchAway * away));
-    }
-    const double root = std::sqrt(std::min(std::max(wish, least), most));
-    wishes_[j + 2] = cube_root(urgent ? root : std::sqrt(root));
-  }
-  wishes_[0] = wishes_[1] = wishes_[2];
-  wishes_[steps + 2] = wishes_[steps + 3] = wishes_[steps + 1];
-  paces_.resize(steps);
-  for (std::size_t i = 0; i < steps; ++i) {
-    const auto* wish = &wishes_[i];
-    paces_[i] = (wish[0] + 3 * wish[1] + 4 * wish[2] + 3 * wish[3] + wish[4]) * (1.0 / 12);
-  }
-  return paces_;
-}
-
 bool MotionShares::verify_places(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline) {
-  first_corner_ = path.leg_at(spline.ways[0]);
-  reached_.assign(path.leg_at(spline.ways.back(), first_corner_) - first_corner_ + 1, false);
+  reached_.assign(path.legs().size(), false);
   bool well = true;
   for (std::size_t j = 0; j < spline.pieces(); ++j) well &= verify_piece(path, limits, spline, j);
   return verify_corners(path, spline) && well;
@@ -210,22 +212,25 @@ bool MotionShares::verify_piece(const StretchPath& path, const motion::AxisLimit
     well = false;
     raise(k, 2, kGoesBack);
   }
-  const auto curve = motion::Curve::between(phase.start, phase.at(phase.duration), phase.duration);
-  for (std::size_t i = std::max(first, first_corner_); i < std::min(last, first_corner_ + reached_.size()); ++i) {
-    auto reached = reached_[i - first_corner_];
-    if (!reached) reached = motion::comes_within(curve, path.corners()[i + 1], path.reach(i));
-  }
+  pass_corners(path, phase, std::max(first, first_corner_), last);
   return well;
+}
+
+// Between the first and the last leg.
+void MotionShares::pass_corners(const StretchPath& path, const motion::Phase& phase, std::size_t first,
+                                std::size_t last) {
+  const auto curve = motion::Curve::between(phase.start, phase.at(phase.duration), phase.duration);
+  for (std::size_t i = first; i < last; ++i) {
+    if (!reached_[i]) reached_[i] = motion::comes_within(curve, path.corners()[i + 1], path.reach(i));
+  }
 }
 
 bool MotionShares::verify_corners(const StretchPath& path, const TimeSpline& spline) {
   const auto& ways = spline.ways;
   bool well = true;
   std::size_t k = 1;
-  for (std::size_t n = 0; n < reached_.size(); ++n) {
-    const std::size_t i = first_corner_ + n;
-    if (i + 1 >= path.legs().size() || path.way(i + 1) <= ways[1] || path.way(i + 1) >= ways[ways.size() - 2]) continue;
-    if (reached_[n]) continue;
+  for (std::size_t i = first_corner_; i + 1 < path.legs().size() && path.way(i + 1) < ways[ways.size() - 2]; ++i) {
+    if (reached_[i]) continue;
     well = false;
     while (k + 2 < ways.size() && ways[k + 1] < path.way(i + 1)) ++k;
     raise(k, 2, kEmphasis * std::max(1.0, distance_near(spline, k, path.corners()[i + 1]) / path.reach(i)));

@@ -10,14 +10,26 @@
 
 namespace kcs::planning {
 
-// The share of a feed, or of what an axis can do, at which a search aims, inverted: so that it ends inside it.
-inline constexpr double kAimSpeed = 1.006;
+// The shares of the feed, and of the axes' acceleration and jerk, at which a search aims, inverted: so that it ends
+// inside them.
+inline constexpr double kAimSpeed = 1.006, kAimLimits = 1.02;
+
+// What a search for a motion is at.
+struct SearchMode {
+  bool crowded = false;    // sharp corners follow each other within a few steps
+  bool finishing = false;  // time is only stretched
+  bool urgent = false;     // finishing has taken long
+};
 
 // 1: all of it. Measured again and again while a motion is looked for, so cheaply: places at the points and, if
 // it is done closely, in the middle between them; limits exactly, because a spline of time has its extremes in its
 // differences.
 class MotionShares {
  public:
+  // To be called first. The motions that are measured go on from this one, or begin here if it is null: corners that it
+  // has come near to already are done with.
+  void begin(const StretchPath& path, const TimeSpline* before);
+
   // Measures the spline, whose points were drawn to the legs `legs`. Moves ways and legs of all points but the first
   // and the last three to the places on the path that the curve is nearest to.
   void measure(const StretchPath& path, const motion::AxisLimits& limits, TimeSpline& spline,
@@ -28,16 +40,14 @@ class MotionShares {
 
   // Of the tolerance, at each point.
   const std::vector<double>& place() const { return place_; }
-  // Of the limits: entry j belongs to the difference that begins at point j.
-  const std::vector<double>& speed() const { return speed_; }
+  // Of the limits: entry j belongs to the difference that begins at point j. Haste is the share of the speed, but where
+  // the feed changes, of that from which the tool can still come down to the lower feed, or that it can have reached
+  // since then.
+  const std::vector<double>& haste() const { return haste_; }
   const std::vector<double>& acceleration() const { return acceleration_; }
   const std::vector<double>& jerk() const { return jerk_; }
 
   double largest_place() const { return largest_place_; }
-  // How much longer each step should take, smoothed over its neighbours; less than 1 only if it is not `finishing`.
-  // While finishing, also what is too far away from the path takes longer. `urgent`: all that is asked for at once, not
-  // half of it.
-  const std::vector<double>& paces(bool finishing, bool urgent);
   // How much slower the motion must become so that every limit is kept; ≤ 1: they are.
   double slower() const;
 
@@ -45,16 +55,19 @@ class MotionShares {
   void measure_places(const StretchPath& path, TimeSpline& spline, std::vector<std::size_t>& legs, bool closely);
   void measure_corners(const StretchPath& path, TimeSpline& spline);
   void measure_limits(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline);
+  void measure_haste(const motion::AxisLimits& limits, const TimeSpline& spline);
   bool verify_piece(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline,
                     std::size_t piece);
+  void pass_corners(const StretchPath& path, const motion::Phase& phase, std::size_t first, std::size_t last);
   bool verify_corners(const StretchPath& path, const TimeSpline& spline);
   void raise(std::size_t from, std::size_t count, double share);
 
-  std::vector<double> place_, speed_, acceleration_, jerk_;
-  std::vector<double> wishes_, paces_;
+  std::vector<double> place_, speed_, haste_, acceleration_, jerk_;
+  std::vector<double> feeds_;     // mm/s, where each speed belongs
+  std::vector<double> drawn_to_;  // the ways that the points were drawn to
   double largest_place_ = 0;
-  std::vector<bool> reached_;  // the corners from first_corner_ on
-  std::size_t first_corner_ = 0;
+  std::vector<bool> reached_;     // the corner at the end of each leg
+  std::size_t first_corner_ = 0;  // that is not done with
 };
 
 }  // namespace kcs::planning

@@ -13,6 +13,21 @@ Vector without_traces(const Vector& value) { return (value.array().abs() < kNoth
 
 }  // namespace
 
+void FitWeights::resize(std::size_t size) {
+  place.resize(size);
+  acceleration.resize(size);
+  jerk.resize(size);
+}
+
+void FitWeights::set_between(std::size_t k, const FitWeights& others, std::size_t i, double share) {
+  const auto between = [&](const std::vector<double>& values) {
+    return values[i] + share * (values[i + 1] - values[i]);
+  };
+  place[k] = between(others.place);
+  acceleration[k] = between(others.acceleration);
+  jerk[k] = between(others.jerk);
+}
+
 // Row by row: what the row has before its diagonal, and the first substitution. A row waits for the inverse of the one
 // before it; everything else that it needs is known by then.
 void PenalizedFit::substitute_forward(const FitWeights& weights, std::span<const Vector> data,

@@ -1,6 +1,7 @@
 // Points at equal steps of time that are near to given ones and change their motion little.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,10 @@ using motion::Vector;
 
 // How much each point of a fit is held, ≥ 0; one entry per point.
 struct FitWeights {
+  void resize(std::size_t size);
+  // Entry k becomes what lies at a share of the way from entry i of others to the next.
+  void set_between(std::size_t k, const FitWeights& others, std::size_t i, double share);
+
   std::vector<double> place;         // of its distance from its datum
   std::vector<double> acceleration;  // of the second difference that begins at it; the last two are not used
   std::vector<double> jerk;          // of the third difference that begins at it; the last three are not used

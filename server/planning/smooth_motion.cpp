@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
+
+#include "server/planning/reweighing.h"
 
 namespace kcs::planning {
 namespace {
@@ -20,23 +23,8 @@ constexpr int kPatience = 5;
 constexpr int kSettling = 3, kSettlingAgain = 2;
 // A motion this near to its limits is slowed down evenly rather than searched on.
 constexpr double kNearlyKept = 1.01;
-// Searching aims at this share of the limits, and of the tolerance, so that it ends inside them.
-constexpr double kAimLimits = 1.02, kAimPlace = 0.9;
-
-// The change of a weight in one round: at least, at most. While finishing, weights ease little: what is settled should
-// not come up again.
-constexpr double kPlaceEase = 0.5, kPlaceEaseFinishing = 0.95, kPlacePress = 1.6;
-constexpr double kEase = 0.7, kEaseFinishing = 0.96, kPress = 1.4;
-// Bounds of the weights. A place weight of w against a jerk weight of 1 holds a point about w^(-1/6) steps wide.
-constexpr double kHeld = 1e9, kFirmest = 1e4;
-// As shares of the time in which an axis reaches its acceleration: of its place at most, and for the speed's sake while
-// searching, finishing, and when that has taken long.
-constexpr double kWidestHold = 0.8, kSpeedHold = 0.3, kSpeedHoldFinishing = 0.2, kSpeedHoldUrgent = 0.04;
-constexpr double kLeastJerk = 0.05, kMostJerk = 50;
-constexpr double kLeastAcceleration = 1e-4, kMostAcceleration = 100;
-// How much more firmly a point is held to its time where the tool is too fast, per excess of speed.
-constexpr double kSpeedPress = 10;
-
+// The place weight of the first and the last three points.
+constexpr double kHeld = 1e9;
 // Weights belong to places, and to times where the tool is slower than this, mm/s.
 constexpr double kDrift = 0.5;
 // While finishing, the motion gets a step longer when its steps have asked for 1 − kEager of one.
@@ -44,15 +32,19 @@ constexpr double kEager = 0.75;
 // A motion that has become so many times as long as its draft, which is slow already, leads nowhere.
 constexpr double kMostGrowth = 3;
 constexpr std::size_t kFewestSteps = 7;
+// Steps at an end whose mean pace becomes that of the end, at least.
+constexpr std::size_t kFewestNear = 4;
+
+// Sharp corners are crowded if there is one in so many steps.
+constexpr double kCrowd = 12;
+// Then finishing puts in whole steps of time: where this much of one is asked for, at first, and so many rounds later.
+constexpr double kLeastStep = 0.5, kLeastStepLate = 0.02, kLate = 60;
 
 double square(double value) { return value * value; }
 double cube(double value) { return value * value * value; }
 
-// std::clamp without branches: in the weights they could not be foreseen.
+// std::clamp without branches: for weights they could not be foreseen.
 double bounded(double value, double least, double most) { return std::min(std::max(value, least), most); }
-
-// The place weight that holds a point over `time`, s.
-double hold_over(double time, double step) { return 1 / square(cube(time / step)); }
 
 // In which the first axis reaches its acceleration, s.
 double ramp_time(const motion::AxisLimits& limits) {
@@ -60,10 +52,12 @@ double ramp_time(const motion::AxisLimits& limits) {
   return (limits.acceleration.head(axes).array() / limits.jerk.head(axes).array()).minCoeff();
 }
 
-void resize(FitWeights& weights, std::size_t size) {
-  weights.place.resize(size);
-  weights.acceleration.resize(size);
-  weights.jerk.resize(size);
+// What takes less time is a matter of jerk and tolerance or, where jerk hardly matters, of acceleration and tolerance,
+// s.
+double hold_time(double tolerance, const motion::AxisLimits& limits) {
+  constexpr double kBends = 4;
+  const double acceleration = limits.acceleration.head(static_cast<Eigen::Index>(limits.axes)).minCoeff();
+  return std::max(ramp_time(limits), kBends * std::sqrt(tolerance / acceleration));
 }
 
 // The place weights of the ends say nothing.
@@ -82,22 +76,26 @@ double between(const std::vector<double>& values, std::size_t i, double share) {
 }  // namespace
 
 double step_of_time(double tolerance, const motion::AxisLimits& limits) {
-  constexpr double kShareOfRamp = 0.1, kShareOfCorner = 0.12;
+  constexpr double kShareOfRamp = 0.25, kShareOfCorner = 0.12;
   const double jerk = limits.jerk.head(static_cast<Eigen::Index>(limits.axes)).maxCoeff();
   return std::min(kShareOfRamp * ramp_time(limits), kShareOfCorner * std::cbrt(6 * tolerance / jerk));
 }
 
 SmoothMotion::SmoothMotion(const StretchPath& path, const motion::AxisLimits& limits, double step)
-    : path_(path), limits_(limits), step_(step) {}
+    : path_(path), limits_(limits), step_(step), hold_time_(hold_time(path.tolerance(), limits)) {}
 
 bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   if (draft.ways.empty()) return false;
   range_ = range;
-  speeds_ = range.at_most;
   missing_ = 0;
   spline_.step = step_;
   spline_.ways = std::move(draft.ways);
   weights_ = std::move(draft.weights);
+  // From the draft's speeds the motion becomes faster; from too fast ones it would hardly find back.
+  const auto& ways = spline_.ways;
+  speeds_ = {(ways[1] - ways[0]) / step_, (ways.end()[-1] - ways.end()[-2]) / step_};
+  mode_.crowded = is_crowded();
+  shares_.begin(path_, range_.before);
   change_step(spline_.ways.size() < kFewestToCoarsen ? step_ : kCoarser * step_);
   const double longest = kMostGrowth * spline_.step * static_cast<double>(spline_.ways.size());
   int settled = kSettling;
@@ -108,16 +106,24 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     }
     const auto size = static_cast<double>(spline_.ways.size());
     if (spline_.step * size > longest) break;
-    work_ += size;
-    finishing_ = round >= kSearching;
-    urgent_ = round >= kSearching + kPatience;
+    mode_.finishing = round >= kSearching;
+    mode_.urgent = round >= kSearching + kPatience;
+    const double late = std::clamp((round - kSearching) / kLate, 0.0, 1.0);
+    least_step_ = kLeastStep + late * (kLeastStepLate - kLeastStep);
     fit();
-    shares_.measure(path_, limits_, spline_, legs_, finishing_ || spline_.step > step_);
-    if (finishing_ && accept()) return true;
-    reweigh();
+    shares_.measure(path_, limits_, spline_, legs_, mode_.finishing || spline_.step > step_);
+    if (mode_.finishing && accept()) return true;
+    reweigh(shares_, mode_, hold_time_ / spline_.step, weights_);
     if (round >= settled) retime();
   }
   return false;
+}
+
+bool SmoothMotion::is_crowded() const {
+  std::size_t sharp = 0;
+  const std::size_t last = path_.leg_at(range_.to);
+  for (std::size_t leg = path_.leg_at(range_.from); leg < last; ++leg) sharp += path_.may_be_missed(leg) ? 1 : 0;
+  return kCrowd * static_cast<double>(sharp) > static_cast<double>(spline_.ways.size());
 }
 
 // The same motion by points at other times.
@@ -131,7 +137,7 @@ void SmoothMotion::change_step(double step) {
     std::swap(old_weights_, weights_);
     forget_ends(old_weights_);
     spline_.ways.resize(count);
-    resize(weights_, count);
+    weights_.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
       const double at = std::clamp(1 + (static_cast<double>(k) - 1) / finer, 0.0, static_cast<double>(size - 1));
       const std::size_t i = std::min(static_cast<std::size_t>(at), size - 2);
@@ -139,9 +145,9 @@ void SmoothMotion::change_step(double step) {
       spline_.ways[k] = between(old_ways_, i, share);
       // Second differences change with the square of the step, third ones with its cube; the weights with their
       // squares.
-      weights_.place[k] = std::min(between(old_weights_.place, i, share) / square(cube(finer)), kFirmest);
-      weights_.acceleration[k] = between(old_weights_.acceleration, i, share) / square(finer);
-      weights_.jerk[k] = between(old_weights_.jerk, i, share);
+      weights_.set_between(k, old_weights_, i, share);
+      weights_.place[k] = std::min(weights_.place[k] / square(cube(finer)), kFirmest);
+      weights_.acceleration[k] /= square(finer);
     }
     spline_.step = step;
   }
@@ -218,89 +224,52 @@ void SmoothMotion::slow_down_evenly() {
   speeds_.exit /= slower;
 }
 
-void SmoothMotion::reweigh() {
-  const std::size_t size = spline_.points.size();
-  const double ramp = ramp_time(limits_);
-  const double widest = hold_over(kWidestHold * ramp, spline_.step);
-  const double speed_hold = hold_over((urgent_      ? kSpeedHoldUrgent
-                                       : finishing_ ? kSpeedHoldFinishing
-                                                    : kSpeedHold) *
-                                          ramp,
-                                      spline_.step);
-  const double place_ease = finishing_ ? kPlaceEaseFinishing : kPlaceEase, ease = finishing_ ? kEaseFinishing : kEase;
-  const auto& speed = shares_.speed();
-  for (std::size_t i = 1; i + 1 < size; ++i) {
-    double& weight = weights_.place[i];
-    const double fast = kAimSpeed * std::max(speed[i - 1], speed[i]);
-    const double too_fast = fast > 1 && weight < speed_hold ? 1 + kSpeedPress * (fast - 1) : 0;
-    const double pressure = std::max(shares_.place()[i] * (1 / kAimPlace), too_fast);
-    weight = bounded(weight * bounded(pressure, place_ease, kPlacePress), widest, kFirmest);
-  }
-  for (std::size_t j = 0; j + 3 < size; ++j) {
-    const double share = kAimLimits * shares_.jerk()[j];
-    const double pressure = finishing_ ? share : std::sqrt(share);
-    weights_.jerk[j] = bounded(weights_.jerk[j] * bounded(pressure, ease, kPress), kLeastJerk, kMostJerk);
-  }
-  for (std::size_t j = 0; j + 2 < size; ++j) {
-    const double share = kAimLimits * shares_.acceleration()[j];
-    const double pressure = finishing_ ? square(share) : cube(share);
-    double& weight = weights_.acceleration[j];
-    weight = bounded(weight * bounded(pressure, ease, kPress), kLeastAcceleration, kMostAcceleration);
-  }
-}
-
 void SmoothMotion::retime() {
-  const auto& paces = shares_.paces(finishing_, urgent_);
-  const std::size_t steps = paces.size();
-  double total = 0;
-  for (const double pace : paces) total += pace;
+  const bool whole_steps = mode_.crowded && mode_.finishing;
+  paces_.set(shares_, mode_);
+  if (whole_steps) paces_.round(least_step_);
+  const double total = paces_.total();
   double whole = std::floor(total + 0.5);
-  if (finishing_) {  // what a round does not give is not forgotten
+  if (mode_.finishing && !whole_steps) {  // what a round does not give is not forgotten
     whole = std::floor(total + missing_ + kEager);
     missing_ += total - whole;
   }
-  const std::size_t wanted = std::max(kFewestSteps, static_cast<std::size_t>(whole));
-  std::swap(old_ways_, spline_.ways);
-  std::swap(old_weights_, weights_);
-  resample_ways(paces, wanted + 1, static_cast<double>(wanted) / total);
-  resample_weights();
-  speeds_.entry = std::min(range_.at_most.entry, speeds_.entry * 4 / (paces[0] + paces[1] + paces[2] + paces[3]));
-  speeds_.exit =
-      std::min(range_.at_most.exit,
-               speeds_.exit * 4 / (paces[steps - 1] + paces[steps - 2] + paces[steps - 3] + paces[steps - 4]));
+  resample(std::max(kFewestSteps, static_cast<std::size_t>(whole)) + 1);
+  slow_ends_down();
   hold_ends();
 }
 
-// The ways at equal times again. Step i took its pace times `scale`.
-void SmoothMotion::resample_ways(const std::vector<double>& paces, std::size_t count, double scale) {
-  spline_.ways.resize(count);
-  old_times_.resize(count);
-  std::size_t i = 0;
-  double begin = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double time = static_cast<double>(k);
-    while (i + 1 < paces.size() && begin + paces[i] * scale < time) begin += paces[i++] * scale;
-    const double share = bounded((time - begin) / (paces[i] * scale), 0, 1);
-    spline_.ways[k] = between(old_ways_, i, share);
-    old_times_[k] = static_cast<double>(i) + share;
-  }
+// The ends become as much slower as what follows them, for no corner may leave the tool the way to brake; while
+// finishing, only as what is next to them, for there they become no faster again.
+void SmoothMotion::slow_ends_down() {
+  const auto& paces = paces_.values();
+  const double hold = mode_.finishing ? 0 : hold_time_ / spline_.step;
+  const std::size_t near = std::clamp(static_cast<std::size_t>(hold), kFewestNear, paces.size());
+  const auto mean = [&](auto first) {
+    return std::accumulate(first, first + static_cast<std::ptrdiff_t>(near), 0.0) / static_cast<double>(near);
+  };
+  speeds_.entry = std::min(range_.at_most.entry, speeds_.entry / mean(paces.begin()));
+  speeds_.exit = std::min(range_.at_most.exit, speeds_.exit / mean(paces.rbegin()));
 }
 
-// Each point gets the weights that were used at its place.
-void SmoothMotion::resample_weights() {
-  const std::size_t size = old_ways_.size(), count = spline_.ways.size();
+// The ways at equal times again, and each point with the weights that were used at its place.
+void SmoothMotion::resample(std::size_t count) {
+  std::swap(old_ways_, spline_.ways);
+  std::swap(old_weights_, weights_);
   forget_ends(old_weights_);
-  resize(weights_, count);
+  const std::size_t size = old_ways_.size();
+  paces_.find_old_times(count, old_times_);
+  spline_.ways.resize(count);
+  weights_.resize(count);
   const double drift = kDrift * spline_.step;
   const auto old = [&](std::size_t i) { return drawn_to_[i] + drift * static_cast<double>(i); };
   std::size_t i = 0;
   for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t step = std::min(static_cast<std::size_t>(old_times_[k]), size - 2);
+    spline_.ways[k] = between(old_ways_, step, old_times_[k] - static_cast<double>(step));
     const double place = spline_.ways[k] + drift * old_times_[k];
     while (i + 2 < size && old(i + 1) < place) ++i;
-    const double share = bounded((place - old(i)) / (old(i + 1) - old(i)), 0, 1);
-    weights_.place[k] = between(old_weights_.place, i, share);
-    weights_.acceleration[k] = between(old_weights_.acceleration, i, share);
-    weights_.jerk[k] = between(old_weights_.jerk, i, share);
+    weights_.set_between(k, old_weights_, i, bounded((place - old(i)) / (old(i + 1) - old(i)), 0, 1));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "server/motion/limits.h"
 #include "server/motion/verifier.h"
 #include "server/planning/motion_shares.h"
+#include "server/planning/paces.h"
 #include "server/planning/penalized_fit.h"
 #include "server/planning/stretch_path.h"
 #include "server/planning/time_spline.h"
@@ -58,8 +59,6 @@ class SmoothMotion {
   const TimeSpline& spline() const { return spline_; }
   EndSpeeds speeds() const { return speeds_; }
   double step() const { return step_; }  // s, as asked for
-  // How much the search took, in rounds times points.
-  double work() const { return work_; }
   // The weights that it has come to.
   const FitWeights& weights() const { return weights_; }
 
@@ -70,26 +69,28 @@ class SmoothMotion {
   void fit();
   bool accept();
   void slow_down_evenly();
-  void reweigh();
+  bool is_crowded() const;
   void retime();
-  void resample_ways(const std::vector<double>& paces, std::size_t count, double scale);
-  void resample_weights();
+  void resample(std::size_t count);
+  void slow_ends_down();
 
   const StretchPath& path_;
   const motion::AxisLimits& limits_;
   double step_;
+  double hold_time_;  // s, which all times of holding are shares of
   MotionRange range_;
   EndSpeeds speeds_;
   TimeSpline spline_;
   FitWeights weights_;
   PenalizedFit fit_;
   MotionShares shares_;
+  Paces paces_;
   // The first three points and their ways, if the motion goes on from another one.
   std::array<Vector, 3> start_points_;
   std::array<double, 3> start_ways_ = {};
-  double work_ = 0;
-  bool finishing_ = false, urgent_ = false;
-  double missing_ = 0;  // steps that were asked for while finishing, and not given yet
+  SearchMode mode_;
+  double least_step_ = 0;  // see kLeastStep
+  double missing_ = 0;     // steps that were asked for while finishing, and not given yet
   // Scratch, kept from round to round.
   std::vector<std::size_t> legs_;  // of the ways
   std::vector<Vector> data_;       // on the path
