@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/motion/contour.h"
+
 namespace kcs::bench {
 
 PathFollower::PathFollower(const planning::Toolpath& path, double tolerance)
@@ -19,6 +21,11 @@ PathFollower::Place PathFollower::follow(const planning::Vector& position) {
   for (std::size_t i = place_.segment + 1; i < path_.segments.size() && starts_[i] < end; ++i) {
     const Place place = nearest_on(i, position);
     if (place.distance < best.distance - planning::kNoLength) best = place;
+  }
+  // While it rounds a sharp corner, the tool may be nearer to the side that it comes from.
+  for (std::size_t i = best.segment + 1; i-- > 0 && starts_[i + 1] > best.length - kCutCorner * tolerance_;) {
+    best.distance =
+        std::min(best.distance, motion::distance_to_segment(position, path_.start_of(i), path_.segments[i].end));
   }
   position_ = position;
   return place_ = best;

@@ -17,7 +17,7 @@ class PathFollower {
   struct Place {
     std::size_t segment = 0;
     double length = 0;    // along the path, mm
-    double distance = 0;  // from the path, mm
+    double distance = 0;  // from the path there or a little before, mm
   };
 
   // The nearest place not before the last one, for a tool that came to `position` since then.
