@@ -132,13 +132,17 @@ void LivePlanner::settle_next() {
   Horizon nearer(options_.limits, kNearer);
   nearer.in_sight(legs_);
   std::unique_ptr<Section> apart;
+  std::size_t until_apart = 0;
   for (const Horizon& horizon : {horizon_, nearer}) {
     auto section = plan(horizon, options_.strategy);
     if (section && !section->taken_apart() && settle(std::move(section), horizon.until())) return;
-    if (section && !apart) apart = std::move(section);
+    if (section && !apart) {
+      apart = std::move(section);
+      until_apart = horizon.until();
+    }
     if (nearer.legs() == horizon_.legs()) break;
   }
-  if (apart && settle(std::move(apart), horizon_.until())) return;
+  if (apart && settle(std::move(apart), until_apart)) return;
   if (follow_last()) return;
   // Smooth motions through many corners are found by trying; corners one by one are inside the limits by themselves.
   auto section =

@@ -49,7 +49,8 @@ void reweigh(const MotionShares& shares, const SearchMode& mode, double hold_ste
     double& weight = weights.place[i];
     const double fast = kAimSpeed * std::max(haste[i - 1], haste[i]);
     const double too_fast = fast > 1 && weight < for_speed ? 1 + kSpeedPress * (fast - 1) : 0;
-    const double pressure = std::max(shares.place()[i] * (1 / kAimPlace), too_fast);
+    const double share = shares.place()[i] * (1 / kAimPlace);
+    const double pressure = std::max(shares.place()[i] > 1 ? square(share) : share, too_fast);
     weight = bounded(weight * bounded(pressure, place_ease, kPlacePress), widest, kFirmest);
   }
   for (std::size_t j = 0; j + 3 < size; ++j) {
@@ -59,7 +60,8 @@ void reweigh(const MotionShares& shares, const SearchMode& mode, double hold_ste
   }
   for (std::size_t j = 0; j + 2 < size; ++j) {
     const double share = kAimLimits * shares.acceleration()[j];
-    const double pressure = mode.finishing ? square(share) : cube(share);
+    const bool settled = mode.finishing && share < kAimLimits;
+    const double pressure = settled ? square(share) : square(cube(share));
     double& weight = weights.acceleration[j];
     weight = bounded(weight * bounded(pressure, ease, kPress), kLeastAcceleration, kMostAcceleration);
   }
