@@ -29,6 +29,8 @@ constexpr double kHeld = 1e9;
 constexpr double kDrift = 0.5;
 // While finishing, the motion gets a step longer when its steps have asked for 1 − kEager of one.
 constexpr double kEager = 0.75;
+// What is at this share of the feed moves; what is at this share of such a speed stands.
+constexpr double kMoves = 0.1, kStands = 0.1;
 // A motion that has become so many times as long as its draft, which is slow already, leads nowhere.
 constexpr double kMostGrowth = 3;
 constexpr std::size_t kFewestSteps = 7;
@@ -89,7 +91,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   range_ = range;
   missing_ = 0;
   spline_.step = step_;
-  spline_.ways = std::move(draft.ways);
+  spline_.ways = draft.ways;
   weights_ = std::move(draft.weights);
   // From the draft's speeds the motion becomes faster; from too fast ones it would hardly find back.
   const auto& ways = spline_.ways;
@@ -112,7 +114,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     least_step_ = kLeastStep + late * (kLeastStepLate - kLeastStep);
     fit();
     shares_.measure(path_, limits_, spline_, legs_, mode_.finishing || spline_.step > step_);
-    if (mode_.finishing && accept()) return true;
+    if (mode_.finishing && accept()) return !stands(draft.ways);
     reweigh(shares_, mode_, hold_time_ / spline_.step, weights_);
     if (round >= settled) retime();
   }
@@ -213,6 +215,20 @@ bool SmoothMotion::accept() {
   if (shares_.slower() > allowed || !shares_.verify_places(path_, limits_, spline_)) return false;
   slow_down_evenly();
   return true;
+}
+
+// Whether the motion keeps all limits because it hardly moves where the draft does: a search can end like that where it
+// goes on from another motion.
+bool SmoothMotion::stands(const std::vector<double>& draft) const {
+  const auto& ways = spline_.ways;
+  std::size_t k = 1;
+  for (std::size_t i = 1; i + 1 < draft.size(); ++i) {
+    const double step = (draft[i + 1] - draft[i - 1]) / 2, feed = path_.feed_between(draft[i], draft[i]);
+    if (step < kMoves * feed * step_) continue;
+    while (k + 2 < ways.size() && ways[k + 1] < draft[i]) ++k;
+    if (ways[k + 1] - ways[k] < kStands * step) return true;
+  }
+  return false;
 }
 
 // The curve stays.

@@ -68,6 +68,7 @@ class SmoothMotion {
   void hold_ends();
   void fit();
   bool accept();
+  bool stands(const std::vector<double>& draft) const;
   void slow_down_evenly();
   bool is_crowded() const;
   void retime();
