@@ -89,7 +89,7 @@ void MotionShares::measure_places(const StretchPath& path, TimeSpline& spline, s
   place_[0] = place_[size - 1] = 0;
   const auto measure = [&](const Vector& point, std::size_t leg) {
     const Projection at = path.project(point, leg);
-    return std::pair(at, at.distance / path.tolerance(at.leg));
+    return std::pair(at, path.share_of_tolerance(at));
   };
   double middle_before = 0;
   for (std::size_t i = 1; i + 1 < size; ++i) {

@@ -6,10 +6,15 @@ namespace kcs::planning {
 namespace {
 
 // What once moved an axis dies away by a share with every point, until numbers are so small that processors become
-// slow. Long before that, they are nothing.
+// slow. It dies away to this instead, which is as good as nothing.
 constexpr double kNothing = 1e-100;
 
-Vector without_traces(const Vector& value) { return (value.array().abs() < kNothing).select(0, value); }
+// An axis that never moves stays at zero.
+Vector trace(std::span<const Vector> data) {
+  Vector largest = Vector::Zero();
+  for (const Vector& point : data) largest = largest.cwiseMax(point.cwiseAbs());
+  return (largest.array() > 0).select(Vector::Constant(kNothing), 0);
+}
 
 }  // namespace
 
@@ -37,6 +42,7 @@ void PenalizedFit::substitute_forward(const FitWeights& weights, std::span<const
   Row one, two, three;
   double entry11 = 0, entry12 = 0, entry21 = 0;   // their entries times their diagonals: 1 of one and two, 2 of one
   double a1 = 0, a2 = 0, j1 = 0, j2 = 0, j3 = 0;  // their weights
+  const Vector nothing = trace(data);
   Vector v1 = Vector::Zero(), v2 = v1, v3 = v1;
   for (std::size_t i = 0; i < size; ++i) {
     const double a0 = i + 2 < size ? weights.acceleration[i] : 0, j0 = i + 3 < size ? weights.jerk[i] : 0;
@@ -48,7 +54,7 @@ void PenalizedFit::substitute_forward(const FitWeights& weights, std::span<const
     const double l1 = entry1 * one.inverse;
     const double diagonal = weights.place[i] + a0 + 4 * a1 + a2 + j0 + 9 * (j1 + j2) + j3;
     const Row row{1 / (diagonal - l3 * entry3 - l2 * entry2 - l1 * entry1), l1, l2, l3};
-    const Vector value = without_traces(weights.place[i] * data[i] - l3 * v3 - l2 * v2 - l1 * v1);
+    const Vector value = weights.place[i] * data[i] + nothing - l3 * v3 - l2 * v2 - l1 * v1;
     rows_[i] = row;
     result[i] = value;
     three = two, two = one, one = row;
@@ -62,7 +68,7 @@ void PenalizedFit::substitute_backward(std::vector<Vector>& result) const {
   Row one, two, three;  // rows after
   Vector v1 = Vector::Zero(), v2 = v1, v3 = v1;
   for (std::size_t i = result.size(); i-- > 0;) {
-    const Vector value = without_traces(rows_[i].inverse * result[i] - three.l3 * v3 - two.l2 * v2 - one.l1 * v1);
+    const Vector value = rows_[i].inverse * result[i] - three.l3 * v3 - two.l2 * v2 - one.l1 * v1;
     result[i] = value;
     three = two, two = one, one = rows_[i];
     v3 = v2, v2 = v1, v1 = value;

@@ -14,6 +14,8 @@ namespace {
 // it is only stretched.
 constexpr int kSearchingCoarsely = 18, kSearching = 26, kFinishing = 80;
 constexpr double kCoarser = 2;
+// In so many rounds the motion is too far from its end to look at it closely.
+constexpr int kRough = 9;
 // Motions of fewer points are searched with their own steps only.
 constexpr std::size_t kFewestToCoarsen = 40;
 // When finishing has taken so many rounds, time is stretched faster.
@@ -96,6 +98,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   // From the draft's speeds the motion becomes faster; from too fast ones it would hardly find back.
   const auto& ways = spline_.ways;
   speeds_ = {(ways[1] - ways[0]) / step_, (ways.end()[-1] - ways.end()[-2]) / step_};
+  if (range_.exact) speeds_ = range_.at_most;
   mode_.crowded = is_crowded();
   shares_.begin(path_, range_.before);
   change_step(spline_.ways.size() < kFewestToCoarsen ? step_ : kCoarser * step_);
@@ -113,7 +116,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     const double late = std::clamp((round - kSearching) / kLate, 0.0, 1.0);
     least_step_ = kLeastStep + late * (kLeastStepLate - kLeastStep);
     fit();
-    shares_.measure(path_, limits_, spline_, legs_, mode_.finishing || spline_.step > step_);
+    shares_.measure(path_, limits_, spline_, legs_, mode_.finishing || (spline_.step > step_ && round >= kRough));
     if (mode_.finishing && accept()) return !stands(draft.ways);
     reweigh(shares_, mode_, hold_time_ / spline_.step, weights_);
     if (round >= settled) retime();
@@ -210,8 +213,8 @@ void SmoothMotion::fit() {
 
 bool SmoothMotion::accept() {
   if (shares_.largest_place() > 1) return false;
-  // What goes on from another motion must keep its step.
-  const double allowed = range_.before != nullptr ? 1 - motion::kRoundingShare : kNearlyKept;
+  // What goes on from another motion must keep its step, and what ends at certain speeds too.
+  const double allowed = range_.before != nullptr || range_.exact ? 1 - motion::kRoundingShare : kNearlyKept;
   if (shares_.slower() > allowed || !shares_.verify_places(path_, limits_, spline_)) return false;
   slow_down_evenly();
   return true;
@@ -258,6 +261,7 @@ void SmoothMotion::retime() {
 // The ends become as much slower as what follows them, for no corner may leave the tool the way to brake; while
 // finishing, only as what is next to them, for there they become no faster again.
 void SmoothMotion::slow_ends_down() {
+  if (range_.exact) return;
   const auto& paces = paces_.values();
   const double hold = mode_.finishing ? 0 : hold_time_ / spline_.step;
   const std::size_t near = std::clamp(static_cast<std::size_t>(hold), kFewestNear, paces.size());

@@ -25,6 +25,7 @@ struct EndSpeeds {
 struct MotionRange {
   double from = 0, to = 0;  // ways, mm
   EndSpeeds at_most;        // the greatest speeds there; what begins or ends at rest does so exactly
+  bool exact = false;       // these are the speeds there
   // The motion goes on from the last three points of this one, if there is one, whatever `from` and at_most.entry are.
   const TimeSpline* before = nullptr;
 };

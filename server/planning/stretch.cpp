@@ -21,16 +21,20 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
       begun_(begun),
       path_(path, range, options),
       step_(begun == nullptr ? step_of_time(path_.tolerance(), options.limits) : begun->settled.step) {
-  search(at_most);
+  search(at_most, false);
 }
 
 EndSpeeds Stretch::plan(const EndSpeeds& at_most) {
   if (failed() || (speeds_.entry <= at_most.entry && speeds_.exit <= at_most.exit)) return speeds_;
-  search({std::min(speeds_.entry, at_most.entry), std::min(speeds_.exit, at_most.exit)});
+  const EndSpeeds slower{std::min(speeds_.entry, at_most.entry), std::min(speeds_.exit, at_most.exit)};
+  // A motion that becomes a little slower than asked for makes its neighbours slower, and they it, on and on.
+  if (slowed_) search(slower, true);
+  if (!slowed_ || failed()) search(slower, false);
+  slowed_ = true;
   return speeds_;
 }
 
-void Stretch::search(const EndSpeeds& at_most) {
+void Stretch::search(const EndSpeeds& at_most, bool exact) {
   TimeSpline settled;
   if (begun_ != nullptr) {
     settled = begun_->settled;
@@ -39,6 +43,7 @@ void Stretch::search(const EndSpeeds& at_most) {
   const MotionRange range{.from = begun_ == nullptr ? 0 : settled.ways.end()[-2],
                           .to = path_.length(),
                           .at_most = at_most,
+                          .exact = exact,
                           .before = begun_ == nullptr ? nullptr : &settled};
   SmoothMotion motion(path_, limits_, step_);
   if (!motion.search(range, draft(range))) {

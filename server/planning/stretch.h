@@ -39,7 +39,7 @@ class Stretch {
   BegunStretch go_on(std::size_t points, std::size_t leg) const;
 
  private:
-  void search(const EndSpeeds& at_most);
+  void search(const EndSpeeds& at_most, bool exact);
   MotionDraft draft(const MotionRange& range) const;
 
   AxisLimits limits_;
@@ -49,6 +49,7 @@ class Stretch {
   TimeSpline spline_;
   FitWeights weights_;  // of what was found, from the last three settled points on
   EndSpeeds speeds_;
+  bool slowed_ = false;  // once already
 };
 
 }  // namespace kcs::planning

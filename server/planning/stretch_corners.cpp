@@ -69,17 +69,20 @@ struct Nearest {
 class Passing {
  public:
   // pieces: how many of them are settled.
-  Passing(const Stretch& stretch, std::size_t pieces) : stretch_(stretch), pieces_(pieces) {}
+  Passing(const Stretch& stretch, std::size_t pieces) : stretch_(stretch), pieces_(pieces) {
+    const auto& ways = stretch.spline().ways;
+    for (std::size_t j = 0; j < pieces; ++j) legs_.push_back(stretch.path().legs_between(ways[j], ways[j + 3]));
+  }
 
   // Where the motion is nearest to the end of a leg.
   Nearest to_end_of(std::size_t leg) {
     const TimeSpline& spline = stretch_.spline();
     const Vector& point = stretch_.path().corners()[leg + 1];
-    while (first_ + 1 < pieces_ && legs_of(first_).second <= leg) ++first_;
+    while (first_ + 1 < pieces_ && legs_[first_].second <= leg) ++first_;
     Nearest best;
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = first_;
-    for (std::size_t j = first_; j < pieces_ && legs_of(j).first <= leg; ++j) {
+    for (std::size_t j = first_; j < pieces_ && legs_[j].first <= leg; ++j) {
       const double distance =
           std::min((spline.knot(j) - point).squaredNorm(), (spline.knot(j + 1) - point).squaredNorm());
       if (distance >= least) continue;
@@ -89,7 +92,7 @@ class Passing {
     least = std::numeric_limits<double>::infinity();
     // A knot may be the nearest of all, but a place in the piece on either side of it nearer still.
     for (std::size_t j = std::max(first_, nearest > 0 ? nearest - 1 : 0); j <= nearest + 1 && j < pieces_; ++j) {
-      if (legs_of(j).first > leg) break;
+      if (legs_[j].first > leg) break;
       const motion::State state = nearest_in(spline.phase(j, Vector::Zero()), point);
       const double distance = (state.position - point).squaredNorm();
       if (distance >= least) continue;
@@ -103,7 +106,7 @@ class Passing {
   // From the legs that the piece follows, mm.
   double error(const Vector& position, std::size_t piece) const {
     const auto& corners = stretch_.path().corners();
-    const auto [first, last] = legs_of(piece);
+    const auto [first, last] = legs_[piece];
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t leg = first; leg <= last; ++leg) {
       least = std::min(least, motion::distance_to_segment(position, corners[leg], corners[leg + 1]));
@@ -111,14 +114,10 @@ class Passing {
     return least;
   }
 
-  std::pair<std::size_t, std::size_t> legs_of(std::size_t piece) const {
-    const auto& ways = stretch_.spline().ways;
-    return stretch_.path().legs_between(ways[piece], ways[piece + 3]);
-  }
-
   const Stretch& stretch_;
   std::size_t pieces_;
-  std::size_t first_ = 0;  // piece
+  std::vector<std::pair<std::size_t, std::size_t>> legs_;  // the first and the last one of each piece
+  std::size_t first_ = 0;                                  // piece
 };
 
 double time_at_feed(const Stretch& stretch, std::size_t from, std::size_t to) {

@@ -34,14 +34,15 @@ StretchPath::StretchPath(const LegPath& path, const LegRange& range, const PlanO
     ends_.push_back(ends_.back() + legs_[i].length - (i == 0 ? range.skipped : 0));
     corners_.push_back(legs_[i].end - origin());
     pieces_.emplace_back(legs_[i].start - origin(), motion::PathSegment{.end = legs_[i].end - origin()}, 0);
-    one_feed_ &= legs_[i].feed == legs_.front().feed;
+    if (feeds_.empty() || feeds_.back().feed != legs_[i].feed) feeds_.push_back({.end = 0, .feed = legs_[i].feed});
+    feeds_.back().end = ends_.back();
     tolerance_ = std::min(tolerance_, legs_[i].tolerance);
     if (i + 1 < legs_.size()) reaches_.push_back(corner_geometry(legs_[i], legs_[i + 1], options).reach);
   }
   ends_.back() -= range.left;
   corners_.back() -= range.left * legs_.back().direction;
   for (std::size_t i = 0; i < legs_.size(); ++i) {
-    lines_.push_back({corners_[i], legs_[i].direction, ends_[i + 1] - ends_[i], legs_[i].tolerance});
+    lines_.push_back({corners_[i], legs_[i].direction, ends_[i + 1] - ends_[i], 1 / legs_[i].tolerance});
   }
   find_turns();
   find_what_may_be_missed();
@@ -133,11 +134,11 @@ std::pair<std::size_t, std::size_t> StretchPath::legs_between(double from, doubl
 }
 
 double StretchPath::feed_between(double from, double to) const {
-  double least = legs_.front().feed;
-  if (one_feed_) return least;
-  const auto [first, last] = legs_between(from, to);
-  least = legs_[first].feed;
-  for (std::size_t i = first + 1; i <= last; ++i) least = std::min(least, legs_[i].feed);
+  const double begin = from - kAround * tolerance_, end = to + kAround * tolerance_;
+  auto run = std::upper_bound(feeds_.begin(), feeds_.end() - 1, begin,
+                              [](double way, const FeedRun& it) { return way < it.end; });
+  double least = run->feed;
+  for (; run + 1 != feeds_.end() && run->end <= end; ++run) least = std::min(least, (run + 1)->feed);
   return least;
 }
 

@@ -47,7 +47,8 @@ class StretchPath {
   // Whether a motion that keeps the tolerance may come too little near to the end of a leg.
   bool may_be_missed(std::size_t leg) const { return may_be_missed_[leg]; }
 
-  double tolerance(std::size_t leg) const { return lines_[leg].tolerance; }  // mm
+  // A distance as a share of the tolerance of the leg.
+  double share_of_tolerance(const Projection& place) const { return place.distance * lines_[place.leg].per_tolerance; }
 
   // The point at a way on a leg; beyond the ends of the stretch it goes on straight. From origin().
   Vector at(std::size_t leg, double way) const {
@@ -78,10 +79,16 @@ class StretchPath {
   // What a projection asks for again and again, together.
   struct Line {
     Vector start, direction;
-    double length, tolerance;
+    double length, per_tolerance;  // mm, 1/mm
     // Squares of the tangents of half the largest turns from the legs before it, and to those after it, which are not
     // beyond a small detour.
     double turn_before = 0, turn_after = 0;
+  };
+
+  // Legs of the same feed, one after the other.
+  struct FeedRun {
+    double end;   // way, mm
+    double feed;  // mm/s
   };
 
   void find_turns();
@@ -97,7 +104,7 @@ class StretchPath {
   std::vector<bool> may_be_missed_;
   std::vector<motion::Piece> pieces_;
   double tolerance_;
-  bool one_feed_ = true;
+  std::vector<FeedRun> feeds_;
 };
 
 }  // namespace kcs::planning
