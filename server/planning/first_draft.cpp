@@ -88,7 +88,8 @@ class Draft {
     while (draft.ways.size() < 6) draft.ways.push_back(range_.to);
     draft.ways.insert(draft.ways.end(), {range_.to - out, range_.to, range_.to + out});
     const std::size_t size = draft.ways.size();
-    draft.weights = {std::vector(size, kPlace), std::vector(size, kAcceleration), std::vector(size, kJerk)};
+    draft.weights = {std::vector(size, kPlace), std::vector(size, kAcceleration),
+                     std::vector<Vector>(size, Vector::Constant(kJerk))};
     return draft;
   }
 

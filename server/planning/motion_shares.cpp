@@ -136,6 +136,7 @@ void MotionShares::measure_limits(const StretchPath& path, const motion::AxisLim
   feeds_.resize(size - 1);
   acceleration_.resize(size - 2);
   jerk_.resize(size - 3);
+  axis_jerk_.resize(size - 3);
   const double step = spline.step;
   const Vector per_velocity = per_limit(limits, limits.velocity, step),
                per_acceleration = per_limit(limits, limits.acceleration, step * step),
@@ -148,7 +149,10 @@ void MotionShares::measure_limits(const StretchPath& path, const motion::AxisLim
         path.feed_between(spline.ways[std::max<std::size_t>(j, 2) - 2], spline.ways[std::min(size - 1, j + 3)]);
     speed_[j] = std::max(first.norm() / (feed * step), share_of(first, per_velocity));
     if (j > 0) acceleration_[j - 1] = share_of(second, per_acceleration);
-    if (j > 1) jerk_[j - 2] = share_of(second - second_before, per_jerk);
+    if (j > 1) {
+      axis_jerk_[j - 2] = (second - second_before).cwiseProduct(per_jerk).cwiseAbs();
+      jerk_[j - 2] = axis_jerk_[j - 2].maxCoeff();
+    }
     first_before = first;
     second_before = second;
   }

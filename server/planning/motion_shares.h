@@ -46,6 +46,8 @@ class MotionShares {
   const std::vector<double>& haste() const { return haste_; }
   const std::vector<double>& acceleration() const { return acceleration_; }
   const std::vector<double>& jerk() const { return jerk_; }
+  // The same, axis by axis.
+  const std::vector<Vector>& axis_jerk() const { return axis_jerk_; }
 
   double largest_place() const { return largest_place_; }
   // How much slower the motion must become so that every limit is kept; ≤ 1: they are.
@@ -63,6 +65,7 @@ class MotionShares {
   void raise(std::size_t from, std::size_t count, double share);
 
   std::vector<double> place_, speed_, haste_, acceleration_, jerk_;
+  std::vector<Vector> axis_jerk_;
   std::vector<double> feeds_;     // mm/s, where each speed belongs
   std::vector<double> drawn_to_;  // the ways that the points were drawn to
   double largest_place_ = 0;

@@ -25,12 +25,10 @@ void FitWeights::resize(std::size_t size) {
 }
 
 void FitWeights::set_between(std::size_t k, const FitWeights& others, std::size_t i, double share) {
-  const auto between = [&](const std::vector<double>& values) {
-    return values[i] + share * (values[i + 1] - values[i]);
-  };
-  place[k] = between(others.place);
-  acceleration[k] = between(others.acceleration);
-  jerk[k] = between(others.jerk);
+  const auto set = [&](auto& mine, const auto& values) { mine[k] = values[i] + share * (values[i + 1] - values[i]); };
+  set(place, others.place);
+  set(acceleration, others.acceleration);
+  set(jerk, others.jerk);
 }
 
 // Row by row: what the row has before its diagonal, and the first substitution. A row waits for the inverse of the one
@@ -40,21 +38,25 @@ void PenalizedFit::substitute_forward(const FitWeights& weights, std::span<const
   const std::size_t size = data.size();
   // Of the rows one, two and three before.
   Row one, two, three;
-  double entry11 = 0, entry12 = 0, entry21 = 0;   // their entries times their diagonals: 1 of one and two, 2 of one
-  double a1 = 0, a2 = 0, j1 = 0, j2 = 0, j3 = 0;  // their weights
-  const Vector nothing = trace(data);
-  Vector v1 = Vector::Zero(), v2 = v1, v3 = v1;
+  const Axes zero = Axes::Zero();
+  Axes entry11 = zero, entry12 = zero,
+       entry21 = zero;    // their entries times their diagonals: 1 of one and two, 2 of one
+  double a1 = 0, a2 = 0;  // their weights
+  Axes j1 = zero, j2 = zero, j3 = zero;
+  const Axes nothing = trace(data);
+  Axes v1 = zero, v2 = zero, v3 = zero;
   for (std::size_t i = 0; i < size; ++i) {
-    const double a0 = i + 2 < size ? weights.acceleration[i] : 0, j0 = i + 3 < size ? weights.jerk[i] : 0;
-    const double entry3 = -j3;
-    const double l3 = entry3 * three.inverse;
-    const double entry2 = a2 + 3 * (j2 + j3) - l3 * entry12;
-    const double l2 = entry2 * two.inverse;
-    const double entry1 = -2 * (a1 + a2) - 3 * (j1 + j3) - 9 * j2 - l3 * entry21 - l2 * entry11;
-    const double l1 = entry1 * one.inverse;
-    const double diagonal = weights.place[i] + a0 + 4 * a1 + a2 + j0 + 9 * (j1 + j2) + j3;
+    const double a0 = i + 2 < size ? weights.acceleration[i] : 0;
+    const Axes j0 = i + 3 < size ? weights.jerk[i].array() : zero;
+    const Axes entry3 = -j3;
+    const Axes l3 = entry3 * three.inverse;
+    const Axes entry2 = a2 + 3 * (j2 + j3) - l3 * entry12;
+    const Axes l2 = entry2 * two.inverse;
+    const Axes entry1 = -2 * (a1 + a2) - 3 * (j1 + j3) - 9 * j2 - l3 * entry21 - l2 * entry11;
+    const Axes l1 = entry1 * one.inverse;
+    const Axes diagonal = weights.place[i] + a0 + 4 * a1 + a2 + j0 + 9 * (j1 + j2) + j3;
     const Row row{1 / (diagonal - l3 * entry3 - l2 * entry2 - l1 * entry1), l1, l2, l3};
-    const Vector value = weights.place[i] * data[i] + nothing - l3 * v3 - l2 * v2 - l1 * v1;
+    const Axes value = weights.place[i] * data[i].array() + nothing - l3 * v3 - l2 * v2 - l1 * v1;
     rows_[i] = row;
     result[i] = value;
     three = two, two = one, one = row;
@@ -66,9 +68,9 @@ void PenalizedFit::substitute_forward(const FitWeights& weights, std::span<const
 
 void PenalizedFit::substitute_backward(std::vector<Vector>& result) const {
   Row one, two, three;  // rows after
-  Vector v1 = Vector::Zero(), v2 = v1, v3 = v1;
+  Axes v1 = Axes::Zero(), v2 = v1, v3 = v1;
   for (std::size_t i = result.size(); i-- > 0;) {
-    const Vector value = rows_[i].inverse * result[i] - three.l3 * v3 - two.l2 * v2 - one.l1 * v1;
+    const Axes value = rows_[i].inverse * result[i].array() - three.l3 * v3 - two.l2 * v2 - one.l1 * v1;
     result[i] = value;
     three = two, two = one, one = rows_[i];
     v3 = v2, v2 = v1, v1 = value;

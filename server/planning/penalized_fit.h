@@ -19,7 +19,7 @@ struct FitWeights {
 
   std::vector<double> place;         // of its distance from its datum
   std::vector<double> acceleration;  // of the second difference that begins at it; the last two are not used
-  std::vector<double> jerk;          // of the third difference that begins at it; the last three are not used
+  std::vector<Vector> jerk;  // of the third difference that begins at it, axis by axis; the last three are not used
 };
 
 // Finds the points r that minimise Σ place_i |r_i − data_i|² + Σ acceleration_i |r_{i+2} − 2 r_{i+1} + r_i|²
@@ -31,9 +31,10 @@ class PenalizedFit {
   void solve(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result);
 
  private:
-  // A row of the factors: the inverse of its diagonal, and its entries 1, 2 and 3 before the diagonal.
+  using Axes = Eigen::Array3d;
+  // A row of the factors of each axis: the inverse of its diagonal, and its entries 1, 2 and 3 before the diagonal.
   struct Row {
-    double inverse = 0, l1 = 0, l2 = 0, l3 = 0;
+    Axes inverse = Axes::Zero(), l1 = inverse, l2 = inverse, l3 = inverse;
   };
 
   void substitute_forward(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result);

@@ -7,8 +7,9 @@
 namespace kcs::planning {
 namespace {
 
-// Searching aims at this share of the tolerance (and at kAimLimits), so that it ends inside it.
-constexpr double kAimPlace = 0.9;
+// Searching aims at this share of the tolerance (and at kAimLimits), so that it ends inside it. Where corners are
+// crowded, all of it counts.
+constexpr double kAimPlace = 0.9, kAimPlaceCrowded = 0.97;
 
 // The change of a weight in one round: at least, at most. While finishing, weights ease little: what is settled should
 // not come up again.
@@ -18,7 +19,9 @@ constexpr double kEase = 0.7, kEaseFinishing = 0.96, kPress = 1.4;
 // As shares of the hold time: how wide a point is held for its place at most, and for the speed's sake while searching,
 // finishing, and when that has taken long.
 constexpr double kWidestHold = 0.8, kSpeedHold = 0.3, kSpeedHoldFinishing = 0.2, kSpeedHoldUrgent = 0.04;
-constexpr double kLeastJerk = 0.05, kMostJerk = 50;
+// Where corners are crowded, the fastest motion has every axis at its limit of jerk nearly all the time: each axis gets
+// weights of its own. Elsewhere that costs rounds and gains nothing.
+constexpr double kLeastJerk = 0.05, kLeastJerkCrowded = 0.1, kMostJerk = 50;
 constexpr double kLeastAcceleration = 1e-4, kMostAcceleration = 100;
 // How much more firmly a point is held to its time where the tool is too fast, per excess of speed.
 constexpr double kSpeedPress = 10;
@@ -44,19 +47,22 @@ void reweigh(const MotionShares& shares, const SearchMode& mode, double hold_ste
   const double widest = hold_over(kWidestHold * hold_steps), for_speed = hold_over(speed_hold(mode) * hold_steps);
   const double place_ease = mode.finishing ? kPlaceEaseFinishing : kPlaceEase;
   const double ease = mode.finishing ? kEaseFinishing : kEase;
+  const double per_aim = 1 / (mode.crowded ? kAimPlaceCrowded : kAimPlace);
+  const double least_jerk = mode.crowded ? kLeastJerkCrowded : kLeastJerk;
   const auto& haste = shares.haste();
   for (std::size_t i = 1; i + 1 < size; ++i) {
     double& weight = weights.place[i];
     const double fast = kAimSpeed * std::max(haste[i - 1], haste[i]);
     const double too_fast = fast > 1 && weight < for_speed ? 1 + kSpeedPress * (fast - 1) : 0;
-    const double share = shares.place()[i] * (1 / kAimPlace);
+    const double share = shares.place()[i] * per_aim;
     const double pressure = std::max(shares.place()[i] > 1 ? square(share) : share, too_fast);
     weight = bounded(weight * bounded(pressure, place_ease, kPlacePress), widest, kFirmest);
   }
   for (std::size_t j = 0; j + 3 < size; ++j) {
     const double share = kAimLimits * shares.jerk()[j];
-    const double pressure = mode.finishing ? share : std::sqrt(share);
-    weights.jerk[j] = bounded(weights.jerk[j] * bounded(pressure, ease, kPress), kLeastJerk, kMostJerk);
+    Eigen::Array3d pressure = kAimLimits * shares.axis_jerk()[j].array();
+    if (!mode.crowded) pressure = mode.finishing ? share : std::sqrt(share);
+    weights.jerk[j] = (weights.jerk[j].array() * pressure.max(ease).min(kPress)).max(least_jerk).min(kMostJerk);
   }
   for (std::size_t j = 0; j + 2 < size; ++j) {
     const double share = kAimLimits * shares.acceleration()[j];

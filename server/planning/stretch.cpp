@@ -74,7 +74,7 @@ MotionDraft Stretch::draft(const MotionRange& range) const {
   const MotionRange rest{.from = draft.ways[kept - 1], .to = range.to, .at_most = {speed, range.at_most.exit}};
   const MotionDraft fresh = first_draft(path_, limits_, rest, step_);
   if (fresh.ways.empty()) return {};
-  const auto join = [&](std::vector<double>& values, const std::vector<double>& more) {
+  const auto join = [&](auto& values, const auto& more) {
     values.resize(kept);
     values.insert(values.end(), more.begin() + 2, more.end());
   };

@@ -24,15 +24,16 @@ FitWeights wild_weights(Eigen::Index size) {
     const auto t = static_cast<double>(i);
     weights.place.push_back(std::exp(4 * std::sin(2.3 * t)));
     weights.acceleration.push_back(std::exp(3 * std::cos(1.7 * t)));
-    weights.jerk.push_back(std::exp(std::cos(t)));
+    weights.jerk.emplace_back(std::exp(std::cos(t)), std::exp(std::cos(2 * t)), std::exp(std::sin(t)));
   }
   return weights;
 }
 
-// The normal equations of the same sum of squares, with every entry.
-Eigen::MatrixXd solved_densely(const FitWeights& weights, const std::vector<Vector>& data) {
+// The normal equations of the same sum of squares for one axis, with every entry.
+Eigen::VectorXd solved_densely(const FitWeights& weights, const std::vector<Vector>& data, Eigen::Index axis) {
   const auto size = static_cast<Eigen::Index>(data.size());
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size, size), right = Eigen::MatrixXd::Zero(size, 3);
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   const auto add = [&](Eigen::Index first, double weight, const Eigen::RowVectorXd& difference) {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(size);
     row.segment(first, difference.size()) = difference;
@@ -41,9 +42,9 @@ Eigen::MatrixXd solved_densely(const FitWeights& weights, const std::vector<Vect
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto index = static_cast<std::size_t>(i);
     system(i, i) += weights.place[index];
-    right.row(i) = weights.place[index] * data[index].transpose();
+    right[i] = weights.place[index] * data[index][axis];
     if (i + 2 < size) add(i, weights.acceleration[index], Eigen::RowVector3d(1, -2, 1));
-    if (i + 3 < size) add(i, weights.jerk[index], Eigen::RowVector4d(-1, 3, -3, 1));
+    if (i + 3 < size) add(i, weights.jerk[index][axis], Eigen::RowVector4d(-1, 3, -3, 1));
   }
   return system.ldlt().solve(right);
 }
@@ -51,10 +52,12 @@ Eigen::MatrixXd solved_densely(const FitWeights& weights, const std::vector<Vect
 void expect_agreement(PenalizedFit& fit, const FitWeights& weights, const std::vector<Vector>& data) {
   std::vector<Vector> found;
   fit.solve(weights, data, found);
-  const Eigen::MatrixXd expected = solved_densely(weights, data);
   ASSERT_EQ(found.size(), data.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    EXPECT_LT((found[i].transpose() - expected.row(static_cast<Eigen::Index>(i))).norm(), 1e-9) << "point " << i;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Eigen::VectorXd expected = solved_densely(weights, data, axis);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i][axis], expected[static_cast<Eigen::Index>(i)], 1e-9) << "point " << i << ", axis " << axis;
+    }
   }
 }
 
@@ -72,7 +75,7 @@ TEST(PenalizedFit, AgreesWithADenseSolverWhereWeightsAreZero) {
   for (std::size_t i = 0; i < 30; ++i) {
     if (i % 4 != 1) weights.place[i] = 0;
     if (i % 3 == 0) weights.acceleration[i] = 0;
-    if (i % 5 == 2) weights.jerk[i] = 0;
+    if (i % 5 == 2) weights.jerk[i] = Vector::Zero();
   }
   expect_agreement(fit, weights, wild_data(30));
 }
@@ -81,7 +84,7 @@ TEST(PenalizedFit, KeepsTheDataWhereNothingIsPenalized) {
   const std::vector<Vector> data = wild_data(20);
   const std::vector<double> none(20, 0.0);
   std::vector<Vector> found;
-  PenalizedFit().solve({wild_weights(20).place, none, none}, data, found);
+  PenalizedFit().solve({wild_weights(20).place, none, std::vector<Vector>(20, Vector::Zero())}, data, found);
   for (std::size_t i = 0; i < data.size(); ++i) EXPECT_LT((found[i] - data[i]).norm(), 1e-14) << i;
 }
 
@@ -93,12 +96,12 @@ TEST(PenalizedFit, GoesThroughThreePointsWithoutJerk) {
     place[held] = 1;
     data[held] = parabola(static_cast<double>(held));
   }
-  PenalizedFit().solve({place, std::vector(20, 0.0), std::vector(20, 1.0)}, data, found);
+  PenalizedFit().solve({place, std::vector(20, 0.0), std::vector<Vector>(20, Vector::Ones())}, data, found);
   for (std::size_t i = 0; i < data.size(); ++i) EXPECT_LT((found[i] - parabola(static_cast<double>(i))).norm(), 1e-6);
 }
 
 TEST(PenalizedFit, HoldsFirmlyWhatIsHeldFirmly) {
-  FitWeights weights{std::vector(40, 1e-3), std::vector(40, 1.0), std::vector(40, 1.0)};
+  FitWeights weights{std::vector(40, 1e-3), std::vector(40, 1.0), std::vector<Vector>(40, Vector::Ones())};
   weights.place[17] = 1e9;
   const std::vector<Vector> data = wild_data(40);
   std::vector<Vector> found;
