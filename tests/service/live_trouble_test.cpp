@@ -155,11 +155,11 @@ TEST_F(LiveTrouble, CallsThatAreCancelledLeaveNothingBehind) {
   }
 }
 
-// A move takes three thousand bytes, and its setpoints nine thousand. What the connection takes in before it holds up
-// the sender is some six million.
+// A move takes thirty thousand bytes, and its setpoints ninety thousand. What the connection takes in before it holds
+// up the sender is some ten million.
 TEST(LivePressure, SetpointsThatNobodyTakesHoldUpThePath) {
   TestServer server;
-  constexpr int kMoves = 6'000;
+  constexpr int kMoves = 1'500;
   v1::LiveOutput output = every(1e-4);
   for (const v1::Channel channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK}) {
     output.add_channels(channel);
@@ -168,10 +168,11 @@ TEST(LivePressure, SetpointsThatNobodyTakesHoldUpThePath) {
   std::atomic<int> sent = 0;
   std::jthread writer([&] {
     EXPECT_TRUE(client.write(live({request(options())}, output)[0]));
-    const std::string comment = " (" + std::string(3000, 'x') + ")\n";
+    std::string comments;
+    for (int i = 0; i < 10; ++i) comments += "(" + std::string(3000, 'x') + ")\n";
     v1::PlanLiveRequest message;
     for (int i = 1; i <= kMoves; ++i) {
-      message.set_gcode("G1 F6000 X" + std::to_string(i) + " Y" + std::to_string(i % 2) + comment);
+      message.set_gcode(comments + "G1 F6000 X" + std::to_string(10 * i) + " Y" + std::to_string(i % 2) + "\n");
       EXPECT_TRUE(client.write(message));
       sent = i;
     }
