@@ -21,13 +21,13 @@ void read(benchmark::State& state, const std::string& text) {
 }
 
 void read_and_plan(benchmark::State& state, const std::string& text) {
-  planning::Summary summary;
-  while (state.KeepRunning()) {
-    summary = planning::plan(toolpath_of(text, kOptions), machine(kAcceleration, kJerk)).summary;
-  }
+  planning::Plan plan;
+  while (state.KeepRunning()) plan = planning::plan(toolpath_of(text, kOptions), machine(kAcceleration, kJerk));
+  const auto segments = static_cast<double>(plan.summary.segments);
   state.counters["lines/s"] = rate(static_cast<double>(std::count(text.begin(), text.end(), '\n')));
-  state.counters["segments/s"] = rate(static_cast<double>(summary.segments));
-  state.counters["s of motion"] = summary.cycle_time;
+  state.counters["segments/s"] = rate(segments);
+  state.counters["s of motion"] = plan.summary.cycle_time;
+  state.counters["B/segment kept"] = static_cast<double>(plan.trajectory.bytes() + plan.corners.bytes()) / segments;
 }
 
 std::string gcode_of(const planning::Toolpath& path) {
@@ -47,6 +47,7 @@ void add_text(Table& table, const std::string& name, const std::string& text) {
   table.add({"reading " + name, "lines/s", reading});
   table.add({"reading and planning " + name, "lines/s", both, "", "", "100 k"});
   table.add({"reading and planning " + name, "segments/s", both, "", "", "200 k"});
+  table.add({"plan of " + name, "B/segment kept", both, "", "", "200"});
 }
 
 }  // namespace
