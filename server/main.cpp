@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,6 +13,7 @@
 #include "server/service/config.h"
 #include "server/service/logging.h"
 #include "server/service/server.h"
+#include "server/systemd/service_manager.h"
 
 namespace {
 
@@ -22,14 +24,18 @@ struct Flags {
   std::string config_file;
   std::optional<std::string> listen;
   std::optional<std::size_t> threads;
+  std::optional<std::string> http_listen;
   std::optional<std::string> log_level;
+  std::optional<std::string> log_format;
 };
 
 Config settings(const Flags& flags) {
   Config config = flags.config_file.empty() ? Config() : kcs::service::load_config(flags.config_file);
   if (flags.listen) config.server.listen = *flags.listen;
   if (flags.threads) config.server.planning_threads = *flags.threads;
+  if (flags.http_listen) config.server.observe.http_listen = *flags.http_listen;
   if (flags.log_level) config.log_level = kcs::service::parse_log_level(*flags.log_level);
+  if (flags.log_format) config.server.observe.log_format = kcs::service::parse_log_format(*flags.log_format);
   return config;
 }
 
@@ -43,14 +49,34 @@ sigset_t block_stop_signals() {
   return signals;
 }
 
+// Waits for one of the signals, and meanwhile tells systemd that the program lives, if that wants to know.
+int wait_for(const sigset_t& signals) {
+  const auto watchdog = kcs::systemd::watchdog_period();
+  if (!watchdog) {
+    int signal = 0;
+    sigwait(&signals, &signal);
+    return signal;
+  }
+  const auto pause = std::chrono::nanoseconds(*watchdog) / 2;
+  const auto whole = std::chrono::duration_cast<std::chrono::seconds>(pause);
+  const timespec patience{.tv_sec = whole.count(), .tv_nsec = (pause - whole).count()};
+  while (true) {
+    kcs::systemd::tell_alive();
+    const int signal = sigtimedwait(&signals, nullptr, &patience);
+    if (signal > 0) return signal;
+  }
+}
+
 [[noreturn]] void serve(const Config& config) {
   const sigset_t signals = block_stop_signals();
   kcs::service::Server server(config.server);
   spdlog::info("kcsd {} listens on {}", KCS_VERSION, server.address());
   std::printf("kcsd listens on %s\n", server.address().c_str());
   std::fflush(stdout);
-  int signal = 0;
-  sigwait(&signals, &signal);
+  if (!server.http_address().empty()) spdlog::info("shows its figures on http://{}/metrics", server.http_address());
+  kcs::systemd::tell_ready("serves on " + server.address());
+  const int signal = wait_for(signals);
+  kcs::systemd::tell_stopping("lets running requests finish");
   spdlog::info("stops on signal {}; running requests have {} ms", signal, config.grace.count());
   server.stop(config.grace);
   spdlog::info("stopped");
@@ -66,14 +92,17 @@ int main(int argc, char** argv) {
   Flags flags;
   app.set_version_flag("--version", "kcsd " KCS_VERSION);
   app.add_option("--config", flags.config_file, "Configuration file (TOML)");
-  app.add_option("--listen", flags.listen, "HOST:PORT (port 0: any free one) or unix:PATH [127.0.0.1:50551]");
+  app.add_option("--listen", flags.listen, "HOST:PORT (port 0: any free one), unix:PATH or systemd [127.0.0.1:50551]");
   app.add_option("--threads", flags.threads, "Threads that plan; 0: one for each processor [0]")
       ->check(CLI::Range(1024));
+  app.add_option("--http-listen", flags.http_listen,
+                 "HOST:PORT of /metrics, /healthz and /readyz (port 0: any free one); empty: none []");
   app.add_option("--log-level", flags.log_level, "debug, info, warning, error or off [info]");
+  app.add_option("--log-format", flags.log_format, "text or json [text]");
   CLI11_PARSE(app, argc, argv);
   try {
-    const Config config = settings(flags);
-    kcs::service::set_up_logging(config.log_level);
+    Config config = settings(flags);
+    config.server.log = kcs::service::set_up_logging(config.log_level, config.server.observe.log_format);
     serve(config);
   } catch (const std::exception& failure) {
     std::fprintf(stderr, "kcsd: %s\n", failure.what());

@@ -1,7 +1,5 @@
 #include "server/jobs/plan_desk.h"
 
-#include <spdlog/spdlog.h>
-
 #include <chrono>
 #include <exception>
 #include <memory>
@@ -11,8 +9,10 @@
 
 namespace kcs::jobs {
 
-PlanDesk::PlanDesk(const Limits& limits)
-    : store_(limits.stored_plans, limits.stored_bytes), pool_(limits.threads, limits.queue_length) {}
+PlanDesk::PlanDesk(const Limits& limits, OnPlanned on_planned)
+    : on_planned_(std::move(on_planned)),
+      store_(limits.stored_plans, limits.stored_bytes),
+      pool_(limits.threads, limits.queue_length) {}
 
 std::shared_future<PlanPointer> PlanDesk::submit(PlanRequest request) {
   const std::string name = request.name;
@@ -48,13 +48,12 @@ std::shared_future<PlanPointer> PlanDesk::submit(PlanRequest request) {
 
 PlanPointer PlanDesk::plan(PlanRequest request) {
   const auto began = std::chrono::steady_clock::now();
+  const std::string call = std::move(request.call);
   auto made = std::make_shared<KeptPlan>();
   made->plan = planning::plan(request.path, request.options.planning);
   static_cast<RequestRecord&>(*made) = std::move(request);
   store_.keep(made);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began;
-  spdlog::info("planned {}: {} segments in {:.3f} s, cycle time {:.3f} s", made->name, made->plan.summary.segments,
-               taken.count(), made->plan.summary.cycle_time);
+  on_planned_({*made, call, std::chrono::steady_clock::now() - began});
   return made;
 }
 

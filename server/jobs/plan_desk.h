@@ -1,8 +1,10 @@
 // Where requests are handed in: finds the plan, joins a planning under way, or has it planned.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <mutex>
 #include <string>
@@ -25,7 +27,17 @@ class PlanDesk {
     std::uint64_t stored_bytes;
   };
 
-  explicit PlanDesk(const Limits& limits);
+  // A plan that was made.
+  struct Planned {
+    const KeptPlan& plan;
+    const std::string& call;  // PlanRequest::call
+    std::chrono::duration<double> taken;
+  };
+  using OnPlanned = std::function<void(const Planned&)>;
+
+  // on_planned: called by the threads that plan.
+  explicit PlanDesk(
+      const Limits& limits, OnPlanned on_planned = [](const Planned&) {});
 
   // The plan of `request`, kept in the store once it is there. Getting the future's value throws what planning::plan()
   // throws, CapExceeded if the plan does not fit into the store, or std::future_error if the desk closed first.
@@ -34,9 +46,13 @@ class PlanDesk {
 
   PlanStore& store() { return store_; }
 
+  // What waits to be planned, and what is being planned.
+  WorkerPool::Load load() const { return pool_.load(); }
+
  private:
   PlanPointer plan(PlanRequest request);
 
+  OnPlanned on_planned_;
   PlanStore store_;
   std::mutex mutex_;
   std::unordered_map<std::string, std::shared_future<PlanPointer>> under_way_;

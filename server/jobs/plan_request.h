@@ -43,6 +43,7 @@ struct RequestRecord {
 
 // A request, decoded and checked.
 struct PlanRequest : RequestRecord {
+  std::string call;  // id of the call that brought it, for the log
   planning::Toolpath path;
 };
 

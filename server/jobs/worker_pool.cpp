@@ -5,6 +5,12 @@
 #include "server/jobs/cap_exceeded.h"
 
 namespace kcs::jobs {
+namespace {
+
+// When a full queue may have a place again: most plans take less.
+constexpr std::chrono::seconds kQueueRetry{1};
+
+}  // namespace
 
 WorkerPool::WorkerPool(std::size_t threads, std::size_t queue_length) : queue_length_(queue_length), idle_(threads) {
   threads_.reserve(threads);
@@ -23,10 +29,17 @@ WorkerPool::~WorkerPool() {
 void WorkerPool::submit(std::function<void()> task) {
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= queue_length_ + idle_) throw CapExceeded("queue_length", queue_length_, "try again later");
+    if (waiting_.size() >= queue_length_ + idle_) {
+      throw CapExceeded("queue_length", queue_length_, "try again later", kQueueRetry);
+    }
     waiting_.push_back(std::move(task));
   }
   changed_.notify_one();
+}
+
+WorkerPool::Load WorkerPool::load() const {
+  const std::lock_guard lock(mutex_);
+  return {waiting_.size(), threads_.size() - idle_};
 }
 
 void WorkerPool::work() {

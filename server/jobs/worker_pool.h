@@ -24,11 +24,17 @@ class WorkerPool {
   // Has `task` run soon; it must not throw. Throws CapExceeded if the queue is full.
   void submit(std::function<void()> task);
 
+  struct Load {
+    std::size_t waiting;  // tasks that no thread has taken up
+    std::size_t running;
+  };
+  Load load() const;
+
  private:
   void work();
 
   std::size_t queue_length_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
   std::size_t idle_ = 0;  // threads without a task

@@ -37,7 +37,8 @@ Keys server_keys(Config& config) {
 
 Config load_config(const std::string& file) {
   Config config;
-  read_tables(file, {{"server", table_of("server", server_keys(config))},
+  read_tables(file, {{"observe", table_of("observe", observe_keys(config.server.observe))},
+                     {"server", table_of("server", server_keys(config))},
                      {"caps", table_of("caps", cap_keys(config.server.caps))}});
   return config;
 }

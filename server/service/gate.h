@@ -2,12 +2,16 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <string_view>
 
 #include "server/jobs/cap_exceeded.h"
 
 namespace kcs::service {
+
+// A call that found no place may find one then: most are short.
+inline constexpr std::chrono::seconds kGateRetry{1};
 
 class Gate {
  public:
@@ -21,7 +25,7 @@ class Gate {
     explicit Pass(Gate& gate) : gate_(gate) {
       if (++gate_.inside_ > gate_.most_) {
         --gate_.inside_;
-        throw jobs::CapExceeded(gate_.cap_, gate_.most_, "try again later");
+        throw jobs::CapExceeded(gate_.cap_, gate_.most_, "try again later", kGateRetry);
       }
     }
     ~Pass() { --gate_.inside_; }

@@ -1,7 +1,5 @@
 #include "server/service/live_call.h"
 
-#include <spdlog/spdlog.h>
-
 #include <utility>
 
 #include "server/service/decode.h"
@@ -11,9 +9,11 @@ namespace kcs::service {
 
 LiveCall::LiveCall(const Caps& caps, SendLive send) : caps_(caps), send_(std::move(send)) {}
 
-void LiveCall::add(const v1::PlanLiveRequest& message) {
+std::uint64_t LiveCall::add(const v1::PlanLiveRequest& message) {
+  const std::uint64_t before = segments_;
   if (incoming_ && message.has_output()) refuse("output", "came late: send it once, beside the options");
   add_message(message, incoming_, [&](const v1::PlanOptions& options) { begin(options, message.output()); });
+  return segments_ - before;
 }
 
 void LiveCall::begin(const v1::PlanOptions& options, const v1::LiveOutput& output) {
@@ -30,10 +30,12 @@ void LiveCall::plan(const planning::Segment& segment) {
     planner_.emplace(options.ends(incoming_->start()), options.planning, *this);
   }
   planner_->add(segment);
+  ++segments_;
   flush();
 }
 
-void LiveCall::finish() {
+std::uint64_t LiveCall::finish() {
+  const std::uint64_t before = segments_;
   if (!incoming_) refuse("options", "the request is empty: send the options first, then the path");
   const jobs::RequestRecord request = incoming_->finish();
   if (!planner_) refuse("path", "has no segment; give at least one move");
@@ -44,7 +46,7 @@ void LiveCall::finish() {
   v1::PlanLiveResponse response;
   encode_plan(request, {summary, phases_, incoming_->start(), end.position}, *response.mutable_plan());
   send_(response);
-  spdlog::info("planned {} live: {} segments, cycle time {:.3f} s", request.name, summary.segments, summary.cycle_time);
+  return segments_ - before;
 }
 
 void LiveCall::flush() {

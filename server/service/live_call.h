@@ -25,10 +25,11 @@ class LiveCall final : public planning::PlanReceiver {
   LiveCall(const LiveCall&) = delete;
   LiveCall& operator=(const LiveCall&) = delete;
 
-  void add(const v1::PlanLiveRequest& message);
+  // How many segments came with the message.
+  std::uint64_t add(const v1::PlanLiveRequest& message);
 
-  // After the last message: sends the rest, and the plan.
-  void finish();
+  // After the last message: sends the rest, and the plan. How many segments were left to the end.
+  std::uint64_t finish();
 
  private:
   void begin(const v1::PlanOptions& options, const v1::LiveOutput& output);
@@ -43,6 +44,7 @@ class LiveCall final : public planning::PlanReceiver {
   std::optional<LiveSetpoints> setpoints_;
   std::optional<LiveCorners> corners_;            // if they are wanted
   std::optional<planning::LivePlanner> planner_;  // from the first segment on
+  std::uint64_t segments_ = 0;                    // that came
   std::uint64_t phases_ = 0;                      // that are settled
 };
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "server/service/call_record.h"
 #include "server/service/encode.h"
 #include "server/service/live_call.h"
 #include "server/service/setpoint_stream.h"
@@ -49,9 +50,10 @@ void require_name(const std::string& name) {
 
 }  // namespace
 
-PlanningService::PlanningService(jobs::PlanDesk& desk, const Caps& caps)
+PlanningService::PlanningService(jobs::PlanDesk& desk, const Caps& caps, const Observation& observation)
     : desk_(desk),
       caps_(caps),
+      observation_(observation),
       uploads_("uploads", caps.uploads),
       streams_("streams", caps.streams),
       live_streams_("live_streams", caps.live_streams) {
@@ -67,24 +69,30 @@ void PlanningService::handle(const char* method, std::unique_ptr<grpc::internal:
 }
 
 template <typename Work>
-grpc::Status PlanningService::answer(std::string_view method, const Work& work) {
+grpc::Status PlanningService::answer(std::string_view method, grpc::ServerContext& context, const Work& work) {
   const Running running(running_);
+  CallRecord call(observation_, method, context);
+  CallEnd end;
   try {
     if (closed_) throw Stopping();
-    return work();
+    end.status = work(call);
   } catch (...) {
-    return status_of_current_exception(method);
+    end = end_by_current_exception();
   }
+  return call.finish(end);
 }
 
 grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan) {
-  return answer("CreatePlan", [&]() -> grpc::Status {
+  return answer("CreatePlan", *context, [&](CallRecord& call) -> grpc::Status {
     const Gate::Pass pass(uploads_);
     Upload upload(caps_);
     grpc::ByteBuffer bytes;
     while (reader->Read(&bytes)) upload.add(parse<v1::CreatePlanRequest>(bytes));
     if (context->IsCancelled()) return grpc::Status::CANCELLED;
-    const std::shared_future<jobs::PlanPointer> planned = desk_.submit(upload.finish());
+    jobs::PlanRequest request = upload.finish();
+    request.call = call.request_id();
+    call.note("plan", request.name);
+    const std::shared_future<jobs::PlanPointer> planned = desk_.submit(std::move(request));
     while (planned.wait_for(kCancellationCheck) != std::future_status::ready) {
       if (context->IsCancelled()) return grpc::Status::CANCELLED;
     }
@@ -94,54 +102,60 @@ grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadRe
 }
 
 grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream* stream) {
-  return answer("PlanLive", [&]() -> grpc::Status {
+  return answer("PlanLive", *context, [&](CallRecord& call) -> grpc::Status {
     const Gate::Pass pass(live_streams_);
-    LiveCall call(caps_, [stream](const v1::PlanLiveResponse& response) {
+    LiveCall live(caps_, [&](const v1::PlanLiveResponse& response) {
       if (!stream->Write(response)) throw Cancelled();
+      count_setpoints(response.setpoints());
+      if (response.has_plan()) call.note("plan", response.plan().name());
     });
     grpc::ByteBuffer bytes;
-    while (stream->Read(&bytes)) call.add(parse<v1::PlanLiveRequest>(bytes));
+    while (stream->Read(&bytes)) {
+      observation_.metrics.segments_planned.add(live.add(parse<v1::PlanLiveRequest>(bytes)));
+    }
     if (context->IsCancelled()) throw Cancelled();
-    call.finish();
+    observation_.metrics.segments_planned.add(live.finish());
     return grpc::Status::OK;
   });
 }
 
-grpc::Status PlanningService::GetPlan(grpc::ServerContext* /*context*/, const v1::GetPlanRequest* request,
-                                      v1::Plan* plan) {
-  return answer("GetPlan", [&] {
+grpc::Status PlanningService::GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest* request, v1::Plan* plan) {
+  return answer("GetPlan", *context, [&](CallRecord& call) {
+    call.note("plan", request->name());
     encode_plan(*find(request->name()), *plan);
     return grpc::Status::OK;
   });
 }
 
-grpc::Status PlanningService::DeletePlan(grpc::ServerContext* /*context*/, const v1::DeletePlanRequest* request,
+grpc::Status PlanningService::DeletePlan(grpc::ServerContext* context, const v1::DeletePlanRequest* request,
                                          google::protobuf::Empty* /*nothing*/) {
-  return answer("DeletePlan", [&] {
+  return answer("DeletePlan", *context, [&](CallRecord& call) {
+    call.note("plan", request->name());
     require_name(request->name());
     if (!desk_.store().forget(request->name())) throw NotKept();
     return grpc::Status::OK;
   });
 }
 
-grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* /*context*/,
-                                              const v1::StreamSetpointsRequest* request,
+grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, const v1::StreamSetpointsRequest* request,
                                               grpc::ServerWriter<v1::SetpointBatch>* writer) {
-  return answer("StreamSetpoints", [&] {
+  return answer("StreamSetpoints", *context, [&](CallRecord& call) {
+    call.note("plan", request->name());
     const Gate::Pass pass(streams_);
     SetpointStream stream(find(request->name()), *request);
     v1::SetpointBatch batch;
     while (stream.next(batch)) {
       if (!writer->Write(batch)) return grpc::Status::CANCELLED;
+      count_setpoints(batch);
     }
     return grpc::Status::OK;
   });
 }
 
-grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* /*context*/,
-                                              const v1::DescribeCornersRequest* request,
+grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* context, const v1::DescribeCornersRequest* request,
                                               grpc::ServerWriter<v1::CornerBatch>* writer) {
-  return answer("DescribeCorners", [&] {
+  return answer("DescribeCorners", *context, [&](CallRecord& call) {
+    call.note("plan", request->name());
     const Gate::Pass pass(streams_);
     const jobs::PlanPointer kept = find(request->name());
     const planning::CornerList& corners = kept->plan.corners;
@@ -153,6 +167,11 @@ grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* /*context*/,
     }
     return grpc::Status::OK;
   });
+}
+
+void PlanningService::count_setpoints(const v1::SetpointBatch& batch) const {
+  if (batch.position_mm().empty()) return;
+  observation_.metrics.setpoints_sent.add(static_cast<std::uint64_t>(batch.position_mm(0).values_size()));
 }
 
 jobs::PlanPointer PlanningService::find(const std::string& name) {

@@ -12,13 +12,14 @@
 #include "server/jobs/plan_desk.h"
 #include "server/service/caps.h"
 #include "server/service/gate.h"
+#include "server/service/observation.h"
 
 namespace kcs::service {
 
 class PlanningService final : public v1::PlanningService::Service {
  public:
-  // Keeps references to both.
-  PlanningService(jobs::PlanDesk& desk, const Caps& caps);
+  // Keeps references to all.
+  PlanningService(jobs::PlanDesk& desk, const Caps& caps, const Observation& observation);
 
   // Refuses every call from now on; those that run go on.
   void close() { closed_ = true; }
@@ -45,15 +46,20 @@ class PlanningService final : public v1::PlanningService::Service {
   // Has `handler` called for a method.
   void handle(const char* method, std::unique_ptr<grpc::internal::MethodHandler> handler);
 
-  // Runs `work`, which returns a grpc::Status, and lets no exception out: none may cross into gRPC.
+  // Runs `work`, which takes the call's record and returns a grpc::Status, and lets no exception out: none may cross
+  // into gRPC. Counts and logs the call.
   template <typename Work>
-  grpc::Status answer(std::string_view method, const Work& work);
+  grpc::Status answer(std::string_view method, grpc::ServerContext& context, const Work& work);
+
+  // That were sent.
+  void count_setpoints(const v1::SetpointBatch& batch) const;
 
   // Throws planning::InvalidInput without a name, NotKept if there is no such plan.
   jobs::PlanPointer find(const std::string& name);
 
   jobs::PlanDesk& desk_;
   const Caps& caps_;
+  const Observation& observation_;
   Gate uploads_;
   Gate streams_;
   Gate live_streams_;

@@ -1,5 +1,6 @@
 #include "server/service/server.h"
 
+#include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -12,7 +13,11 @@
 #include <thread>
 
 #include "server/jobs/plan_desk.h"
+#include "server/observe/http_endpoint.h"
+#include "server/service/observation.h"
 #include "server/service/planning_service.h"
+#include "server/service/socket_acceptor.h"
+#include "server/systemd/inherited_sockets.h"
 
 namespace kcs::service {
 namespace {
@@ -35,6 +40,8 @@ std::size_t thread_count(std::size_t wanted) {
 constexpr std::size_t kMostPortDigits = 5;
 constexpr int kMostPort = 65535;
 
+constexpr const char* kSystemd = "systemd";
+
 bool is_unix(const std::string& listen) { return listen.starts_with("unix:"); }
 
 void require_address(const std::string& listen) {
@@ -43,14 +50,16 @@ void require_address(const std::string& listen) {
                         listen.size() <= colon + 1 + kMostPortDigits &&
                         listen.find_first_not_of("0123456789", colon + 1) == std::string::npos &&
                         std::stoi(listen.substr(colon + 1)) <= kMostPort;
-  if (listen.empty() || is_unix(listen) || has_port) return;
+  if (listen.empty() || listen == kSystemd || is_unix(listen) || has_port) return;
   throw std::runtime_error("cannot listen on \"" + listen +
                            "\": give HOST:PORT, with a port up to 65535, or unix:PATH");
 }
 
-grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const Caps& caps) {
+grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const ServerOptions& options) {
+  const Caps& caps = options.caps;
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, options.observe.channelz ? 1 : 0);
   grpc::ResourceQuota quota("kcsd");
   quota.SetMaxThreads(static_cast<int>(caps.uploads + caps.streams + caps.live_streams) + kSpareThreads);
   builder.SetResourceQuota(quota);
@@ -68,19 +77,36 @@ grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const Caps& caps) {
   return builder;
 }
 
+// Null if nobody asks for it.
+std::unique_ptr<observe::HttpEndpoint> make_http(const std::string& listen, const Observation& observation) {
+  if (listen.empty()) return nullptr;
+  return std::make_unique<observe::HttpEndpoint>(listen, observation.registry, observation.readiness, observation.log);
+}
+
 }  // namespace
 
 struct Server::Parts {
   explicit Parts(const ServerOptions& options)
       : caps(options.caps),
-        desk({thread_count(options.planning_threads), caps.queue_length, caps.stored_plans, caps.stored_bytes}),
-        service(desk, caps) {}
+        observation{.log = options.log},
+        http(make_http(options.observe.http_listen, observation)),
+        desk({thread_count(options.planning_threads), caps.queue_length, caps.stored_plans, caps.stored_bytes},
+             [this](const jobs::PlanDesk::Planned& planned) { report(observation, planned); }),
+        service(desk, caps, observation) {
+    add_readings(observation.registry, desk);
+  }
+  ~Parts() { http.reset(); }  // it reads from the desk
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
 
   const Caps caps;
+  Observation observation;
+  std::unique_ptr<observe::HttpEndpoint> http;  // null if nobody asked for it
   jobs::PlanDesk desk;
   PlanningService service;
   std::string address;
   std::unique_ptr<grpc::Server> server;
+  std::unique_ptr<SocketAcceptor> acceptor;  // null unless systemd listens
   std::mutex stopping;
   std::future<void> down;  // of the server, once it is told to stop
 };
@@ -88,24 +114,51 @@ struct Server::Parts {
 Server::Server(const ServerOptions& options) {
   require_address(options.listen);
   parts_ = std::make_unique<Parts>(options);
+  if (options.observe.channelz) grpc::channelz::experimental::InitChannelzService();  // for builders made afterwards
   grpc::ServerBuilder builder;
-  configure(builder, options.caps).RegisterService(&parts_->service);
+  configure(builder, options).RegisterService(&parts_->service);
+  if (options.listen == kSystemd) {
+    serve_inherited(builder);
+  } else {
+    serve_address(builder, options.listen);
+  }
+  grpc::HealthCheckServiceInterface* const health = parts_->server->GetHealthCheckService();
+  health->SetServingStatus(v1::PlanningService::service_full_name(), false);
+  parts_->observation.readiness.watch([health](bool ready) { health->SetServingStatus(ready); });
+  parts_->observation.readiness.set_ready();
+}
+
+void Server::serve_address(grpc::ServerBuilder& builder, const std::string& listen) {
   int port = 0;
-  if (!options.listen.empty()) builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
+  if (!listen.empty()) builder.AddListeningPort(listen, grpc::InsecureServerCredentials(), &port);
   parts_->server = builder.BuildAndStart();
-  if (parts_->server == nullptr || (!options.listen.empty() && port == 0)) {
-    throw std::runtime_error("cannot listen on " + options.listen +
+  if (parts_->server == nullptr || (!listen.empty() && port == 0)) {
+    throw std::runtime_error("cannot listen on " + listen +
                              ": is another program using it, or is it no address of this machine? Choose another one");
   }
-  parts_->address = options.listen.empty() || is_unix(options.listen)
-                        ? options.listen
-                        : options.listen.substr(0, options.listen.rfind(':') + 1) + std::to_string(port);
-  parts_->server->GetHealthCheckService()->SetServingStatus(v1::PlanningService::service_full_name(), true);
+  parts_->address =
+      listen.empty() || is_unix(listen) ? listen : listen.substr(0, listen.rfind(':') + 1) + std::to_string(port);
+}
+
+void Server::serve_inherited(grpc::ServerBuilder& builder) {
+  std::vector<int> sockets;
+  for (const systemd::InheritedSocket& socket : systemd::inherited_sockets()) {
+    parts_->address += (sockets.empty() ? "" : ",") + socket.address;
+    sockets.push_back(socket.descriptor);
+  }
+  using Builder = std::remove_reference_t<decltype(builder.experimental())>;
+  auto acceptor = builder.experimental().AddExternalConnectionAcceptor(Builder::ExternalConnectionType::FROM_FD,
+                                                                       grpc::InsecureServerCredentials());
+  parts_->server = builder.BuildAndStart();
+  if (parts_->server == nullptr) throw std::runtime_error("cannot serve on the sockets of systemd");
+  parts_->acceptor = std::make_unique<SocketAcceptor>(std::move(sockets), std::move(acceptor));
 }
 
 Server::~Server() { stop(std::chrono::milliseconds(0)); }
 
 const std::string& Server::address() const { return parts_->address; }
+
+std::string Server::http_address() const { return parts_->http ? parts_->http->address() : ""; }
 
 std::shared_ptr<grpc::Channel> Server::in_process_channel() {
   grpc::ChannelArguments arguments;
@@ -116,6 +169,8 @@ std::shared_ptr<grpc::Channel> Server::in_process_channel() {
 void Server::stop(std::chrono::milliseconds grace) {
   const std::lock_guard lock(parts_->stopping);
   if (parts_->down.valid()) return;
+  parts_->acceptor.reset();
+  parts_->observation.readiness.stop();
   parts_->server->GetHealthCheckService()->Shutdown();
   parts_->service.close();
   const auto end = std::chrono::steady_clock::now() + grace;

@@ -2,26 +2,32 @@
 #pragma once
 
 #include <grpcpp/channel.h>
+#include <grpcpp/server_builder.h>
 
 #include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
 
+#include "server/observe/log.h"
 #include "server/service/caps.h"
+#include "server/service/observe_settings.h"
 
 namespace kcs::service {
 
 struct ServerOptions {
-  // "HOST:PORT" (port 0: any free one), "unix:PATH", or empty: no socket at all, only in_process_channel().
+  // "HOST:PORT" (port 0: any free one), "unix:PATH", "systemd" (the sockets that systemd hands over), or empty: no
+  // socket at all, only in_process_channel().
   std::string listen = "127.0.0.1:50551";
   // Threads that plan; 0: one for each processor. The plans do not depend on it.
   std::size_t planning_threads = 0;
   Caps caps;
+  ObserveSettings observe;
+  // Where it logs to.
+  observe::Log log;
 };
 
 // Serves from construction until stop() or destruction. Its methods may be called from any thread.
-// Logs to spdlog's default logger: a program that keeps its standard output for results sends that one elsewhere.
 class Server {
  public:
   // Throws std::runtime_error, with the address and the remedy, if it cannot listen there.
@@ -34,6 +40,9 @@ class Server {
   // Where clients reach it, with the port that was really taken; empty without a socket.
   const std::string& address() const;
 
+  // Where its figures are asked for over HTTP, with the port that was really taken; empty if nowhere.
+  std::string http_address() const;
+
   // A channel to this server that needs no socket. Close its calls before the server goes.
   std::shared_ptr<grpc::Channel> in_process_channel();
 
@@ -44,6 +53,10 @@ class Server {
 
  private:
   struct Parts;
+
+  void serve_address(grpc::ServerBuilder& builder, const std::string& listen);
+  void serve_inherited(grpc::ServerBuilder& builder);
+
   std::unique_ptr<Parts> parts_;
 };
 

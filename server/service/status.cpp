@@ -1,9 +1,9 @@
 #include "server/service/status.h"
 
 #include <google/rpc/error_details.pb.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
+#include <chrono>
 #include <exception>
 #include <future>
 #include <new>
@@ -13,6 +13,7 @@
 #include "server/jobs/cap_exceeded.h"
 #include "server/planning/invalid_input.h"
 #include "server/service/printable.h"
+#include "server/service/status_details.h"
 
 namespace kcs::service {
 namespace {
@@ -28,12 +29,20 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFields =
      {"path, end_speed", "options.end_speed_mm_s"}}};
 
 constexpr std::string_view kStopping = "the server is stopping; try again later";
+// When another replica, or the next start of this one, may answer.
+constexpr std::chrono::seconds kStoppingRetry{1};
+// When memory that is taken may be free again.
+constexpr std::chrono::seconds kMemoryRetry{5};
 
 std::string_view contract_name(std::string_view field) {
   for (const auto& [name, contract_name] : kFields) {
     if (field == name) return contract_name;
   }
   return field;
+}
+
+grpc::Status failure(grpc::StatusCode code, std::string_view reason) {
+  return {code, printable(reason, kMostTextBytes)};
 }
 
 grpc::Status bad_request(const planning::InvalidInput& refused) {
@@ -47,53 +56,45 @@ grpc::Status bad_request(const planning::InvalidInput& refused) {
       break;
     }
   }
-  google::rpc::Status status;
-  status.set_code(grpc::StatusCode::INVALID_ARGUMENT);
   const planning::Violation& first = refused.violations().front();
-  status.set_message(printable(std::string(contract_name(first.field)) + ": " + first.description, kMostTextBytes));
-  status.add_details()->PackFrom(details);
-  return {grpc::StatusCode::INVALID_ARGUMENT, status.message(), status.SerializeAsString()};
+  const std::string reason = std::string(contract_name(first.field)) + ": " + first.description;
+  return with_detail(failure(grpc::StatusCode::INVALID_ARGUMENT, reason), details);
 }
 
-grpc::Status failure(grpc::StatusCode code, std::string_view reason) {
-  return {code, printable(reason, kMostTextBytes)};
+CallEnd cap_exceeded(const jobs::CapExceeded& refused) {
+  const grpc::Status status = failure(grpc::StatusCode::RESOURCE_EXHAUSTED, refused.what());
+  return {refused.retry_after() ? with_retry(status, *refused.retry_after()) : status, std::string(refused.cap())};
 }
+
+grpc::Status stopping() { return with_retry(failure(grpc::StatusCode::UNAVAILABLE, kStopping), kStoppingRetry); }
 
 }  // namespace
 
-grpc::Status status_of_current_exception(std::string_view method) {
-  const auto classify = []() -> grpc::Status {
-    try {
-      throw;
-    } catch (const planning::InvalidInput& refused) {
-      return bad_request(refused);
-    } catch (const jobs::CapExceeded& refused) {
-      return failure(grpc::StatusCode::RESOURCE_EXHAUSTED, refused.what());
-    } catch (const NotKept&) {
-      return failure(
-          grpc::StatusCode::NOT_FOUND,
-          "the server does not keep this plan; send its request again: the same request gives the same plan");
-    } catch (const Stopping&) {
-      return failure(grpc::StatusCode::UNAVAILABLE, kStopping);
-    } catch (const Cancelled&) {
-      return failure(grpc::StatusCode::CANCELLED, "the client gave up");
-    } catch (const std::future_error&) {
-      return failure(grpc::StatusCode::UNAVAILABLE, kStopping);
-    } catch (const std::bad_alloc&) {
-      return failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory; try again later");
-    } catch (const std::exception& defect) {
-      return failure(grpc::StatusCode::INTERNAL, defect.what());
-    } catch (...) {
-      return failure(grpc::StatusCode::INTERNAL, "unknown failure");
-    }
-  };
-  grpc::Status status = classify();
-  if (status.error_code() == grpc::StatusCode::INTERNAL) {
-    spdlog::error("{} failed: {}", method, status.error_message());
-  } else {
-    spdlog::info("{} refused: {}", method, status.error_message());
+CallEnd end_by_current_exception() {
+  try {
+    throw;
+  } catch (const planning::InvalidInput& refused) {
+    return {bad_request(refused)};
+  } catch (const jobs::CapExceeded& refused) {
+    return cap_exceeded(refused);
+  } catch (const NotKept&) {
+    return {
+        failure(grpc::StatusCode::NOT_FOUND,
+                "the server does not keep this plan; send its request again: the same request gives the same plan")};
+  } catch (const Stopping&) {
+    return {stopping()};
+  } catch (const Cancelled&) {
+    return {failure(grpc::StatusCode::CANCELLED, "the client gave up")};
+  } catch (const std::future_error&) {
+    return {stopping()};
+  } catch (const std::bad_alloc&) {
+    return {with_retry(failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory; try again later"),
+                       kMemoryRetry)};
+  } catch (const std::exception& defect) {
+    return {failure(grpc::StatusCode::INTERNAL, defect.what())};
+  } catch (...) {
+    return {failure(grpc::StatusCode::INTERNAL, "unknown failure")};
   }
-  return status;
 }
 
 }  // namespace kcs::service

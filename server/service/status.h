@@ -1,22 +1,27 @@
-// What a failure looks like to the client.
+// How a call ends, as the client sees it.
 #pragma once
 
 #include <grpcpp/support/status.h>
 
-#include <string_view>
+#include <string>
 
 namespace kcs::service {
 
-// The status for the exception that is being handled; call it inside a catch clause only. Logs it, with the method.
+struct CallEnd {
+  grpc::Status status;
+  std::string cap = {};  // for which it was refused; empty if it was not for one
+};
+
+// The end that the exception being handled brings; call it inside a catch clause only.
 //   planning::InvalidInput   INVALID_ARGUMENT with a google.rpc.BadRequest in the status details
-//   jobs::CapExceeded        RESOURCE_EXHAUSTED, which names the cap
+//   jobs::CapExceeded        RESOURCE_EXHAUSTED, which names the cap; with a google.rpc.RetryInfo if that may help
 //   NotKept                  NOT_FOUND
-//   Stopping                 UNAVAILABLE
+//   Stopping                 UNAVAILABLE with a google.rpc.RetryInfo
 //   Cancelled                CANCELLED
-//   std::future_error        UNAVAILABLE: the server stopped before the plan was made
-//   std::bad_alloc           RESOURCE_EXHAUSTED
+//   std::future_error        UNAVAILABLE with a google.rpc.RetryInfo: the server stopped before the plan was made
+//   std::bad_alloc           RESOURCE_EXHAUSTED with a google.rpc.RetryInfo
 //   anything else            INTERNAL with the reason: a defect of kcs
-grpc::Status status_of_current_exception(std::string_view method);
+CallEnd end_by_current_exception();
 
 // Thrown where a plan is asked for that the server does not keep.
 struct NotKept {};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <thread>
 
 #include "tests/service/test_server.h"
 
@@ -53,6 +54,36 @@ TEST(Health, TellsThatTheServerAndItsServiceAreServing) {
   RawCall unknown(server, kCheck);
   unknown.ask(health_request("none"));
   EXPECT_EQ(unknown.finish().error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST(Health, TellsThatAStoppingServerIsNotServing) {
+  TestServer server;
+  Call call;
+  v1::Plan plan;
+  const auto upload = server.stub().CreatePlan(&call, &plan);
+  upload->Write(request(options()));
+  ASSERT_TRUE(eventually([&] {
+    RawCall check(server, "/grpc.health.v1.Health/Check");
+    return check.ask(health_request("kcs.v1.PlanningService")) == "\x08\x01";
+  }));
+  std::thread stopping([&] { server.server().stop(kDeadline); });
+  for (const std::string service : {"", "kcs.v1.PlanningService"}) {
+    EXPECT_TRUE(eventually([&] {
+      RawCall check(server, "/grpc.health.v1.Health/Check");
+      return check.ask(health_request(service)) == "\x08\x02";
+    })) << "still SERVING: "
+        << service;
+  }
+  call.TryCancel();
+  upload->Finish();
+  stopping.join();
+}
+
+TEST(Channelz, TellsNothingUnlessAskedTo) {
+  const TestServer server;
+  RawCall servers(server, "/grpc.channelz.v1.Channelz/GetServers");
+  servers.ask("");
+  EXPECT_EQ(servers.finish().error_code(), grpc::StatusCode::UNIMPLEMENTED);
 }
 
 TEST(Reflection, ListsTheServiceAndItsContract) {

@@ -125,14 +125,9 @@ v1::StreamSetpointsRequest setpoints(const std::string& name, double period) {
 }
 
 std::vector<std::string> violations(const grpc::Status& status) {
-  google::rpc::Status details;
-  google::rpc::BadRequest bad_request;
-  if (!details.ParseFromString(status.error_details()) || details.details_size() != 1 ||
-      !details.details(0).UnpackTo(&bad_request)) {
-    return {};
-  }
   std::vector<std::string> list;
-  for (const auto& violation : bad_request.field_violations()) {
+  const auto refused = detail<google::rpc::BadRequest>(status);
+  for (const auto& violation : refused.field_violations()) {
     list.push_back(violation.field() + ": " + violation.description());
   }
   return list;

@@ -64,6 +64,18 @@ v1::PathChunk path(const std::vector<double>& points, double feed = 100);
 v1::PathChunk right_angle();
 v1::StreamSetpointsRequest setpoints(const std::string& name, double period);
 
+// The detail of this kind in a failure's status; an empty one if there is none.
+template <typename Detail>
+Detail detail(const grpc::Status& status) {
+  google::rpc::Status details;
+  Detail found;
+  details.ParseFromString(status.error_details());
+  for (const google::protobuf::Any& any : details.details()) {
+    if (any.Is<Detail>()) any.UnpackTo(&found);
+  }
+  return found;
+}
+
 // "field: description" of each violation in a refusal.
 std::vector<std::string> violations(const grpc::Status& status);
 // The refusal is INVALID_ARGUMENT and one of its violations is of just this field.

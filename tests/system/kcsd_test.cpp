@@ -111,7 +111,7 @@ TEST(Kcsd, ServesAndLogsEachPlanOnOneLine) {
   EXPECT_EQ(kcsd.process().wait(), 0);
   EXPECT_EQ(kcsd.process().read_line(), "") << "more than one line on the standard output";
   const std::string log = kcsd.process().errors();
-  EXPECT_NE(log.find("planned " + plan.name() + ": 2 segments"), std::string::npos) << log;
+  EXPECT_NE(log.find("plan=" + plan.name() + " segments=2"), std::string::npos) << log;
   EXPECT_NE(log.find("CreatePlan refused: path.feed_mm_s"), std::string::npos) << log;
 }
 

@@ -1,0 +1,253 @@
+// kcsd as systemd, monitoring and collectors of logs deal with it.
+#include <arpa/inet.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/impl/rpc_method.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <kcs/v1/planning.grpc.pb.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/system/child_process.h"
+
+namespace kcs::test {
+namespace {
+
+constexpr std::chrono::seconds kDeadline{60};
+
+// What the process says first: where it listens.
+std::string address_of(ChildProcess& kcsd) {
+  constexpr std::string_view kGreeting = "kcsd listens on ";
+  const std::string greeting = kcsd.read_line();
+  EXPECT_TRUE(greeting.starts_with(kGreeting)) << greeting << kcsd.errors();
+  return greeting.substr(std::min(greeting.size(), kGreeting.size()));
+}
+
+// Asks for a plan that is not there: the status that a serving kcsd answers is NOT_FOUND.
+grpc::StatusCode ask(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  const auto stub =
+      v1::PlanningService::NewStub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+  grpc::ClientContext call;
+  call.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  call.set_wait_for_ready(true);
+  v1::GetPlanRequest request;
+  request.set_name("plans/none");
+  v1::Plan plan;
+  return stub->GetPlan(&call, request, &plan).error_code();
+}
+
+// Where it shows its figures, from its log.
+std::string http_address_of(const ChildProcess& kcsd) {
+  constexpr std::string_view kBefore = "figures on http://";
+  const auto end = std::chrono::steady_clock::now() + kDeadline;
+  while (std::chrono::steady_clock::now() < end) {
+    const std::string log = kcsd.errors();
+    const std::size_t begin = log.find(kBefore);
+    const std::size_t slash = begin == std::string::npos ? begin : log.find("/metrics", begin);
+    if (slash != std::string::npos) return log.substr(begin + kBefore.size(), slash - begin - kBefore.size());
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ADD_FAILURE() << "no address of the figures: " << kcsd.errors();
+  return "127.0.0.1:0";
+}
+
+// The socket on which systemd hears from its services.
+class NotifySocket {
+ public:
+  NotifySocket() : path_(::testing::TempDir() + "kcs-notify-" + std::to_string(getpid())) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path_.c_str(), sizeof(address.sun_path) - 1);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+    const timeval patience{.tv_sec = kDeadline.count(), .tv_usec = 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  }
+  ~NotifySocket() {
+    close(socket_);
+    unlink(path_.c_str());
+  }
+  NotifySocket(const NotifySocket&) = delete;
+  NotifySocket& operator=(const NotifySocket&) = delete;
+
+  const std::string& path() const { return path_; }
+
+  std::string receive() const {
+    std::array<char, 512> bytes{};
+    const ssize_t size = recv(socket_, bytes.data(), bytes.size(), 0);
+    return size < 0 ? "nothing came" : std::string(bytes.data(), static_cast<std::size_t>(size));
+  }
+
+ private:
+  const std::string path_;
+  const int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+};
+
+TEST(KcsdUnderSystemd, TellsWhenItIsReadyAliveAndStopping) {
+  const NotifySocket manager;
+  ChildProcess kcsd(
+      {"/usr/bin/env", "NOTIFY_SOCKET=" + manager.path(), "WATCHDOG_USEC=200000", KCSD, "--listen", "127.0.0.1:0"});
+  EXPECT_EQ(manager.receive(), "READY=1\nSTATUS=serves on " + address_of(kcsd));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(manager.receive(), "WATCHDOG=1");
+  kcsd.send_signal(SIGTERM);
+  std::string last = manager.receive();
+  while (last == "WATCHDOG=1") last = manager.receive();
+  EXPECT_EQ(last, "STOPPING=1\nSTATUS=lets running requests finish");
+  EXPECT_EQ(kcsd.wait(), 0);
+}
+
+// A socket of the loopback that listens, as systemd keeps it for a service across its restarts.
+class ListeningSocket {
+ public:
+  ListeningSocket() {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), size), 0);
+    EXPECT_EQ(listen(socket_, SOMAXCONN), 0);
+    getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+    address_ = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  }
+  ~ListeningSocket() { close(socket_); }
+  ListeningSocket(const ListeningSocket&) = delete;
+  ListeningSocket& operator=(const ListeningSocket&) = delete;
+
+  const std::string& address() const { return address_; }
+
+  // kcsd with this socket as its file descriptor 3, as systemd would start it.
+  std::vector<std::string> command() const {
+    return {"/bin/bash", "-c",
+            "exec 3<&" + std::to_string(socket_) +
+                "; export LISTEN_PID=$$ LISTEN_FDS=1 LISTEN_FDNAMES=kcsd.socket; exec \"$0\" --listen systemd",
+            KCSD};
+  }
+
+ private:
+  const int socket_ = socket(AF_INET, SOCK_STREAM, 0);  // not closed on exec
+  std::string address_;
+};
+
+TEST(KcsdUnderSystemd, ServesOnASocketThatItIsHanded) {
+  const ListeningSocket socket;
+  ChildProcess kcsd(socket.command());
+  EXPECT_EQ(address_of(kcsd), socket.address());
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(socket.address()), grpc::StatusCode::NOT_FOUND);
+  kcsd.send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.wait(), 0);
+}
+
+TEST(KcsdUnderSystemd, ClientThatComesBetweenTwoServersWaitsForTheNext) {
+  const ListeningSocket socket;
+  {
+    ChildProcess first(socket.command());
+    EXPECT_EQ(address_of(first), socket.address());
+    EXPECT_EQ(ask(socket.address()), grpc::StatusCode::NOT_FOUND);
+    first.send_signal(SIGTERM);
+    EXPECT_EQ(first.wait(), 0);
+  }
+  grpc::StatusCode answer = grpc::StatusCode::UNKNOWN;
+  std::thread client([&] { answer = ask(socket.address()); });
+  ChildProcess second(socket.command());
+  client.join();
+  EXPECT_EQ(answer, grpc::StatusCode::NOT_FOUND);
+}
+
+TEST(KcsdUnderSystemd, SaysWhatIsMissingWithoutASocket) {
+  ChildProcess kcsd({KCSD, "--listen", "systemd"});
+  EXPECT_EQ(kcsd.wait(), 1);
+  EXPECT_NE(kcsd.errors().find("start the program by its .socket unit"), std::string::npos) << kcsd.errors();
+}
+
+TEST(KcsdUnderMonitoring, ShowsItsFiguresAndItsState) {
+  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0", "--http-listen", "127.0.0.1:0"});
+  EXPECT_EQ(ask(address_of(kcsd)), grpc::StatusCode::NOT_FOUND);
+  httplib::Client client("http://" + http_address_of(kcsd));
+  client.set_read_timeout(kDeadline);
+  for (const std::string path : {"/healthz", "/readyz"}) {
+    const auto answer = client.Get(path);
+    ASSERT_TRUE(answer) << path;
+    EXPECT_EQ(answer->status, 200) << path;
+  }
+  const auto figures = client.Get("/metrics");
+  ASSERT_TRUE(figures);
+  EXPECT_NE(figures->body.find("\nkcs_rpcs_total{method=\"GetPlan\",code=\"NOT_FOUND\"} 1\n"), std::string::npos)
+      << figures->body;
+  EXPECT_NE(figures->body.find("\nprocess_resident_memory_bytes "), std::string::npos);
+}
+
+TEST(KcsdUnderMonitoring, PortInUseIsSaidPlainly) {
+  const ListeningSocket taken;
+  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0", "--http-listen", taken.address()});
+  EXPECT_EQ(kcsd.wait(), 1);
+  EXPECT_NE(kcsd.errors().find("cannot serve HTTP on " + taken.address()), std::string::npos) << kcsd.errors();
+}
+
+TEST(KcsdLog, IsJsonLineByLineIfAskedFor) {
+  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0", "--log-format", "json", "--log-level", "debug"});
+  const std::string address = address_of(kcsd);
+  EXPECT_EQ(ask(address), grpc::StatusCode::NOT_FOUND);
+  // What speaks no gRPC makes the library write lines of its own.
+  httplib::Client("http://" + address).Get("/\"quoted\"");
+  kcsd.send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.wait(), 0);
+  std::istringstream log(kcsd.errors());
+  int calls = 0;
+  for (std::string line; std::getline(log, line);) {
+    const auto fields = nlohmann::json::parse(line, nullptr, false);
+    ASSERT_TRUE(fields.is_object()) << line;
+    for (const char* field : {"time", "level", "message"}) EXPECT_TRUE(fields.contains(field)) << line;
+    if (fields.value("method", "") == "GetPlan") {
+      ++calls;
+      EXPECT_EQ(fields["status"], "NOT_FOUND");
+      EXPECT_EQ(fields["request_id"].get<std::string>().size(), 32U);
+    }
+  }
+  EXPECT_EQ(calls, 1) << kcsd.errors();
+}
+
+TEST(KcsdChannelz, TellsWhoIsConnectedIfAskedFor) {
+  const std::string file = ::testing::TempDir() + "kcsd-channelz-" + std::to_string(getpid()) + ".toml";
+  std::ofstream(file) << "[observe]\nchannelz = true\n";
+  ChildProcess kcsd({KCSD, "--config", file, "--listen", "127.0.0.1:0"});
+  const std::string address = address_of(kcsd);
+  unlink(file.c_str());
+  // In raw bytes, as its messages are in no header of the libraries.
+  const auto channel = grpc::CreateChannel(address, grpc::InsecureChannelCredentials());
+  grpc::ClientContext call;
+  call.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  const auto stream = std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer>>(
+      grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, grpc::ByteBuffer>::Create(
+          channel.get(),
+          grpc::internal::RpcMethod("/grpc.channelz.v1.Channelz/GetServers", grpc::internal::RpcMethod::BIDI_STREAMING),
+          &call));
+  const grpc::Slice nothing;
+  stream->Write(grpc::ByteBuffer(&nothing, 1));
+  stream->WritesDone();
+  grpc::ByteBuffer answer;
+  ASSERT_TRUE(stream->Read(&answer)) << stream->Finish().error_message();
+  grpc::Slice bytes;
+  ASSERT_TRUE(answer.DumpToSingleSlice(&bytes).ok());
+  EXPECT_NE(std::string(bytes.begin(), bytes.end()).find("listener ipv4:127.0.0.1"), std::string::npos)
+      << "its socket is not listed";
+}
+
+}  // namespace
+}  // namespace kcs::test
