@@ -1,0 +1,22 @@
+// Where the next page of a list begins, in a word that clients carry from one call to the next.
+#pragma once
+
+#include <string>
+
+#include "server/store/records.h"
+
+namespace kcs::store {
+
+// The last plan of a page.
+struct PageEnd {
+  Time create_time{};
+  std::string name;
+};
+
+// A word of letters, digits and slashes that says where a page ended and, in a digest, whose list it was a page of.
+std::string page_token(const PageEnd& end, const std::string& owner, const Filter& filter);
+
+// Throws InvalidPageToken unless page_token() made `token` for the same owner and filter.
+PageEnd parse_page_token(const std::string& token, const std::string& owner, const Filter& filter);
+
+}  // namespace kcs::store

@@ -1,0 +1,102 @@
+#include "server/store/plan_rows.h"
+
+#include <fmt/format.h>
+
+namespace kcs::store {
+namespace {
+
+bool exists(soci::session& session, const std::string& name) {
+  int count = 0;
+  session << "select count(*) from plans where name = :name", soci::use(name, "name"), soci::into(count);
+  return count > 0;
+}
+
+}  // namespace
+
+std::string record_columns(const Dialect& dialect) {
+  return fmt::format(
+      "p.name, p.state, o.create_time, {}, case when p.state = 0 and p.planner = :planner then 1 else 0 end",
+      dialect.string_of_column("p.outcome"));
+}
+
+Record RecordRow::record(const Dialect& dialect) const {
+  return {.name = name,
+          .state = static_cast<State>(state),
+          .create_time = Time(std::chrono::microseconds(create_time)),
+          .outcome = dialect.decode(outcome),
+          .to_plan = to_plan != 0};
+}
+
+std::optional<Record> select_plan(soci::session& session, const Dialect& dialect, const std::string& planner,
+                                  const std::string& owner, const std::string& name) {
+  RecordRow row;
+  session << fmt::format(
+      "select {} from owners o join plans p on p.name = o.name where o.owner = :owner and o.name = :name",
+      record_columns(dialect)),
+      soci::use(planner, "planner"), soci::use(owner, "owner"), soci::use(name, "name"), soci::into(row.name),
+      soci::into(row.state), soci::into(row.create_time), soci::into(row.outcome), soci::into(row.to_plan);
+  if (!session.got_data()) return std::nullopt;
+  return row.record(dialect);
+}
+
+void insert_plan(soci::session& session, const Dialect& dialect, const Request& request, const PackedRequest& packed) {
+  if (exists(session, request.name)) return;
+  const std::string now = dialect.now();
+  const auto request_bytes = static_cast<long long>(request.bytes.size());
+  const auto stored_bytes = static_cast<long long>(packed.bytes());
+  session << fmt::format(
+      "insert into plans (name, machine_name, state, outcome, request_bytes, stored_bytes, accept_time, use_time, "
+      "planner, lease_end) values (:name, :machine_name, 0, {}, :request_bytes, :stored_bytes, {}, {}, '', 0)",
+      dialect.bytes_of_parameter("''"), now, now),
+      soci::use(request.name, "name"), soci::use(request.machine_name, "machine_name"),
+      soci::use(request_bytes, "request_bytes"), soci::use(stored_bytes, "stored_bytes");
+  packed.insert(session, dialect, request.name);
+}
+
+void insert_owner(soci::session& session, const Dialect& dialect, const std::string& owner, const std::string& name) {
+  session << fmt::format(
+      "insert into owners (owner, name, create_time) values (:owner, :name, {}) on conflict (owner, name) do nothing",
+      dialect.now()),
+      soci::use(owner, "owner"), soci::use(name, "name");
+}
+
+void touch_plan(soci::session& session, const Dialect& dialect, const std::string& name) {
+  session << fmt::format("update plans set use_time = {} where name = :name", dialect.now()), soci::use(name, "name");
+}
+
+void settle_plan(soci::session& session, const Dialect& dialect, const std::string& name, State state,
+                 std::string_view outcome, std::optional<double> cycle_time) {
+  const int new_state = static_cast<int>(state);
+  const double seconds = cycle_time.value_or(0);
+  soci::indicator has_seconds = cycle_time ? soci::i_ok : soci::i_null;
+  const auto outcome_bytes = static_cast<long long>(outcome.size());
+  const std::string bytes = dialect.encode(std::string(outcome));
+  session << fmt::format(
+      "update plans set state = :state, cycle_time = :cycle_time, outcome = {}, use_time = {}, "
+      "stored_bytes = stored_bytes + :outcome_bytes where name = :name and state = 0",
+      dialect.bytes_of_parameter(":outcome"), dialect.now()),
+      soci::use(new_state, "state"), soci::use(seconds, has_seconds, "cycle_time"), soci::use(bytes, "outcome"),
+      soci::use(outcome_bytes, "outcome_bytes"), soci::use(name, "name");
+}
+
+Removal delete_owner(soci::session& session, const std::string& owner, const std::string& name) {
+  int his = 0;
+  int all = 0;
+  session << "select count(*) from owners where owner = :owner and name = :name", soci::use(owner, "owner"),
+      soci::use(name, "name"), soci::into(his);
+  if (his == 0) return Removal::kNotFound;
+  session << "delete from owners where owner = :owner and name = :name", soci::use(owner, "owner"),
+      soci::use(name, "name");
+  session << "select count(*) from owners where name = :name", soci::use(name, "name"), soci::into(all);
+  if (all > 0) return Removal::kOthersKeepIt;
+  delete_plan(session, name);
+  return Removal::kGone;
+}
+
+void delete_plan(soci::session& session, const std::string& name) {
+  session << "delete from owners where name = :name", soci::use(name, "name");
+  delete_request(session, name);
+  session << "delete from plans where name = :name", soci::use(name, "name");
+}
+
+}  // namespace kcs::store

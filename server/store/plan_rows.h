@@ -1,0 +1,46 @@
+// What is said to the database about one plan. What inserts, settles or deletes belongs into a transaction on its name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "server/store/connections.h"
+#include "server/store/records.h"
+#include "server/store/request_rows.h"
+
+namespace kcs::store {
+
+// The columns of a Record: those of "owners o join plans p", in the order in which RecordRow takes them.
+std::string record_columns(const Dialect& dialect);
+
+// One row of these columns. Their parameter :planner is the server that asks.
+struct RecordRow {
+  std::string name;
+  int state = 0;
+  long long create_time = 0;
+  std::string outcome;
+  int to_plan = 0;
+
+  Record record(const Dialect& dialect) const;
+};
+
+std::optional<Record> select_plan(soci::session& session, const Dialect& dialect, const std::string& planner,
+                                  const std::string& owner, const std::string& name);
+
+// Unless they are there already.
+void insert_plan(soci::session& session, const Dialect& dialect, const Request& request, const PackedRequest& packed);
+void insert_owner(soci::session& session, const Dialect& dialect, const std::string& owner, const std::string& name);
+
+// The plan is used now.
+void touch_plan(soci::session& session, const Dialect& dialect, const std::string& name);
+
+// Writes the outcome if the plan has none.
+void settle_plan(soci::session& session, const Dialect& dialect, const std::string& name, State state,
+                 std::string_view outcome, std::optional<double> cycle_time);
+
+Removal delete_owner(soci::session& session, const std::string& owner, const std::string& name);
+// With all that belongs to it.
+void delete_plan(soci::session& session, const std::string& name);
+
+}  // namespace kcs::store

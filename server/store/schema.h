@@ -1,0 +1,19 @@
+// The tables of the store, and their versions.
+//
+//   plans         one row a plan: what it is searched by, its outcome, and who plans it
+//   owners        one row for each owner of each plan
+//   request_rows  the requests, compressed, in pieces of bounded size, see request_rows.h
+//   kcs_schema    one row: the version
+//
+// Times are in µs since 1970, by the database's clock where it has one, so that servers agree.
+#pragma once
+
+#include "server/store/connections.h"
+
+namespace kcs::store {
+
+// Makes what is missing and brings an older schema up to date; several servers may do it at the same moment. Throws
+// StoreError if the schema is of a newer version.
+void prepare_schema(Connections& connections);
+
+}  // namespace kcs::store
