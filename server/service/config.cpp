@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "server/service/settings_file.h"
+#include "server/service/store_settings.h"
 
 namespace kcs::service {
 namespace {
@@ -39,7 +40,8 @@ Config load_config(const std::string& file) {
   Config config;
   read_tables(file, {{"observe", table_of("observe", observe_keys(config.server.observe))},
                      {"server", table_of("server", server_keys(config))},
-                     {"caps", table_of("caps", cap_keys(config.server.caps))}});
+                     {"caps", table_of("caps", cap_keys(config.server.caps))},
+                     {"store", table_of("store", store_keys(config.store))}});
   return config;
 }
 
