@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <optional>
 #include <string>
 
+#include "server/security/token_commands.h"
 #include "server/service/config.h"
 #include "server/service/logging.h"
 #include "server/service/server.h"
@@ -27,6 +29,9 @@ struct Flags {
   std::optional<std::string> http_listen;
   std::optional<std::string> log_level;
   std::optional<std::string> log_format;
+  bool insecure = false;
+  bool new_token = false;
+  bool hash_token = false;
 };
 
 Config settings(const Flags& flags) {
@@ -36,6 +41,7 @@ Config settings(const Flags& flags) {
   if (flags.http_listen) config.server.observe.http_listen = *flags.http_listen;
   if (flags.log_level) config.log_level = kcs::service::parse_log_level(*flags.log_level);
   if (flags.log_format) config.server.observe.log_format = kcs::service::parse_log_format(*flags.log_format);
+  config.server.security.insecure = config.server.security.insecure || flags.insecure;
   return config;
 }
 
@@ -99,8 +105,13 @@ int main(int argc, char** argv) {
                  "HOST:PORT of /metrics, /healthz and /readyz (port 0: any free one); empty: none []");
   app.add_option("--log-level", flags.log_level, "debug, info, warning, error or off [info]");
   app.add_option("--log-format", flags.log_format, "text or json [text]");
+  app.add_flag("--insecure", flags.insecure, "Listen beyond this machine even without TLS, or to everybody");
+  app.add_flag("--new-token", flags.new_token, "Print a new token, and to the standard error what to configure; end");
+  app.add_flag("--hash-token", flags.hash_token, "Read a token from the standard input, print what to configure; end");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (flags.new_token) return kcs::security::make_token(std::cout, std::cerr), EXIT_SUCCESS;
+    if (flags.hash_token) return kcs::security::hash_token(std::cin, std::cout), EXIT_SUCCESS;
     Config config = settings(flags);
     config.server.log = kcs::service::set_up_logging(config.log_level, config.server.observe.log_format);
     serve(config);

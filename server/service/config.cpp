@@ -4,6 +4,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "server/service/connection_settings.h"
+#include "server/service/security_settings.h"
 #include "server/service/settings_file.h"
 #include "server/service/store_settings.h"
 
@@ -38,10 +40,13 @@ Keys server_keys(Config& config) {
 
 Config load_config(const std::string& file) {
   Config config;
-  read_tables(file, {{"observe", table_of("observe", observe_keys(config.server.observe))},
-                     {"server", table_of("server", server_keys(config))},
-                     {"caps", table_of("caps", cap_keys(config.server.caps))},
-                     {"store", table_of("store", store_keys(config.store))}});
+  Keys tables = {{"caps", table_of("caps", cap_keys(config.server.caps))},
+                 {"connections", table_of("connections", connection_keys(config.server.connections))},
+                 {"observe", table_of("observe", observe_keys(config.server.observe))},
+                 {"server", table_of("server", server_keys(config))},
+                 {"store", table_of("store", store_keys(config.store))}};
+  tables.merge(security_tables(config.server.security));
+  read_tables(file, tables);
   return config;
 }
 

@@ -18,6 +18,9 @@
 #include "server/service/violations.h"
 
 namespace kcs::service {
+
+using security::Identity;
+
 namespace {
 
 // How soon a client that gave up is noticed while its plan is made.
@@ -44,15 +47,13 @@ class Running {
   std::atomic<int>& count_;
 };
 
-void require_name(const std::string& name) {
-  if (name.empty()) refuse("name", "is missing: give the name of a plan");
-}
-
 }  // namespace
 
-PlanningService::PlanningService(jobs::PlanDesk& desk, const Caps& caps, const Observation& observation)
+PlanningService::PlanningService(jobs::PlanDesk& desk, const Caps& caps, const AccessControl& access,
+                                 const Observation& observation)
     : desk_(desk),
       caps_(caps),
+      access_(access),
       observation_(observation),
       uploads_("uploads", caps.uploads),
       streams_("streams", caps.streams),
@@ -75,7 +76,7 @@ grpc::Status PlanningService::answer(std::string_view method, grpc::ServerContex
   CallEnd end;
   try {
     if (closed_) throw Stopping();
-    end.status = work(call);
+    end.status = work(call, access_.admit(context, method));
   } catch (...) {
     end = end_by_current_exception();
   }
@@ -83,7 +84,7 @@ grpc::Status PlanningService::answer(std::string_view method, grpc::ServerContex
 }
 
 grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan) {
-  return answer("CreatePlan", *context, [&](CallRecord& call) -> grpc::Status {
+  return answer("CreatePlan", *context, [&](CallRecord& call, const Identity& caller) -> grpc::Status {
     const Gate::Pass pass(uploads_);
     Upload upload(caps_);
     grpc::ByteBuffer bytes;
@@ -96,13 +97,14 @@ grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadRe
     while (planned.wait_for(kCancellationCheck) != std::future_status::ready) {
       if (context->IsCancelled()) return grpc::Status::CANCELLED;
     }
+    owners_.add(planned.get(), caller.owner);
     encode_plan(*planned.get(), *plan);
     return grpc::Status::OK;
   });
 }
 
 grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream* stream) {
-  return answer("PlanLive", *context, [&](CallRecord& call) -> grpc::Status {
+  return answer("PlanLive", *context, [&](CallRecord& call, const Identity& /*caller*/) -> grpc::Status {
     const Gate::Pass pass(live_streams_);
     LiveCall live(caps_, [&](const v1::PlanLiveResponse& response) {
       if (!stream->Write(response)) throw Cancelled();
@@ -120,29 +122,29 @@ grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream
 }
 
 grpc::Status PlanningService::GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest* request, v1::Plan* plan) {
-  return answer("GetPlan", *context, [&](CallRecord& call) {
+  return answer("GetPlan", *context, [&](CallRecord& call, const Identity& caller) {
     call.note("plan", request->name());
-    encode_plan(*find(request->name()), *plan);
+    encode_plan(*owned_plan(caller, request->name()), *plan);
     return grpc::Status::OK;
   });
 }
 
 grpc::Status PlanningService::DeletePlan(grpc::ServerContext* context, const v1::DeletePlanRequest* request,
                                          google::protobuf::Empty* /*nothing*/) {
-  return answer("DeletePlan", *context, [&](CallRecord& call) {
+  return answer("DeletePlan", *context, [&](CallRecord& call, const Identity& caller) {
     call.note("plan", request->name());
-    require_name(request->name());
-    if (!desk_.store().forget(request->name())) throw NotKept();
+    owned_plan(caller, request->name());
+    if (owners_.remove(caller, request->name())) desk_.store().forget(request->name());
     return grpc::Status::OK;
   });
 }
 
 grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, const v1::StreamSetpointsRequest* request,
                                               grpc::ServerWriter<v1::SetpointBatch>* writer) {
-  return answer("StreamSetpoints", *context, [&](CallRecord& call) {
+  return answer("StreamSetpoints", *context, [&](CallRecord& call, const Identity& caller) {
     call.note("plan", request->name());
     const Gate::Pass pass(streams_);
-    SetpointStream stream(find(request->name()), *request);
+    SetpointStream stream(owned_plan(caller, request->name()), *request);
     v1::SetpointBatch batch;
     while (stream.next(batch)) {
       if (!writer->Write(batch)) return grpc::Status::CANCELLED;
@@ -154,10 +156,10 @@ grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, cons
 
 grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* context, const v1::DescribeCornersRequest* request,
                                               grpc::ServerWriter<v1::CornerBatch>* writer) {
-  return answer("DescribeCorners", *context, [&](CallRecord& call) {
+  return answer("DescribeCorners", *context, [&](CallRecord& call, const Identity& caller) {
     call.note("plan", request->name());
     const Gate::Pass pass(streams_);
-    const jobs::PlanPointer kept = find(request->name());
+    const jobs::PlanPointer kept = owned_plan(caller, request->name());
     const planning::CornerList& corners = kept->plan.corners;
     for (std::size_t first = 0; first < corners.size(); first += kCornersPerBatch) {
       v1::CornerBatch batch;
@@ -174,9 +176,9 @@ void PlanningService::count_setpoints(const v1::SetpointBatch& batch) const {
   observation_.metrics.setpoints_sent.add(static_cast<std::uint64_t>(batch.position_mm(0).values_size()));
 }
 
-jobs::PlanPointer PlanningService::find(const std::string& name) {
-  require_name(name);
-  jobs::PlanPointer kept = desk_.store().find(name);
+jobs::PlanPointer PlanningService::owned_plan(const Identity& caller, const std::string& name) {
+  if (name.empty()) refuse("name", "is missing: give the name of a plan");
+  jobs::PlanPointer kept = owners_.sees(caller, name) ? desk_.store().find(name) : nullptr;
   if (!kept) throw NotKept();
   return kept;
 }

@@ -10,16 +10,18 @@
 #include <string_view>
 
 #include "server/jobs/plan_desk.h"
+#include "server/service/access_control.h"
 #include "server/service/caps.h"
 #include "server/service/gate.h"
 #include "server/service/observation.h"
+#include "server/service/plan_owners.h"
 
 namespace kcs::service {
 
 class PlanningService final : public v1::PlanningService::Service {
  public:
   // Keeps references to all.
-  PlanningService(jobs::PlanDesk& desk, const Caps& caps, const Observation& observation);
+  PlanningService(jobs::PlanDesk& desk, const Caps& caps, const AccessControl& access, const Observation& observation);
 
   // Refuses every call from now on; those that run go on.
   void close() { closed_ = true; }
@@ -46,20 +48,22 @@ class PlanningService final : public v1::PlanningService::Service {
   // Has `handler` called for a method.
   void handle(const char* method, std::unique_ptr<grpc::internal::MethodHandler> handler);
 
-  // Runs `work`, which takes the call's record and returns a grpc::Status, and lets no exception out: none may cross
-  // into gRPC. Counts and logs the call.
+  // Runs `work` for a caller who may call this method. It takes the call's record and the caller's Identity and returns
+  // a grpc::Status; no exception gets out, as none may cross into gRPC. Counts and logs the call.
   template <typename Work>
   grpc::Status answer(std::string_view method, grpc::ServerContext& context, const Work& work);
 
   // That were sent.
   void count_setpoints(const v1::SetpointBatch& batch) const;
 
-  // Throws planning::InvalidInput without a name, NotKept if there is no such plan.
-  jobs::PlanPointer find(const std::string& name);
+  // The caller's plan of that name. Throws planning::InvalidInput without a name, NotKept if he has no such plan.
+  jobs::PlanPointer owned_plan(const security::Identity& caller, const std::string& name);
 
   jobs::PlanDesk& desk_;
   const Caps& caps_;
+  const AccessControl& access_;
   const Observation& observation_;
+  PlanOwners owners_;
   Gate uploads_;
   Gate streams_;
   Gate live_streams_;

@@ -14,9 +14,12 @@
 
 #include "server/jobs/plan_desk.h"
 #include "server/observe/http_endpoint.h"
+#include "server/service/access_control.h"
+#include "server/service/listen_address.h"
 #include "server/service/observation.h"
 #include "server/service/planning_service.h"
 #include "server/service/socket_acceptor.h"
+#include "server/service/tls_credentials.h"
 #include "server/systemd/inherited_sockets.h"
 
 namespace kcs::service {
@@ -24,9 +27,6 @@ namespace {
 
 // Threads for calls beside the uploads and the streams: the short ones, health, reflection.
 constexpr int kSpareThreads = 64;
-constexpr int kKeepaliveMs = 30'000;
-constexpr int kKeepaliveTimeoutMs = 10'000;
-constexpr int kMinPingIntervalMs = 5'000;
 // How stopping goes on: how often it looks whether a call runs, how long it waits for clients to read what was sent
 // and for cancelled calls to end.
 constexpr std::chrono::milliseconds kIdleCheck{20};
@@ -37,22 +37,10 @@ std::size_t thread_count(std::size_t wanted) {
   return wanted > 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
 }
 
-constexpr std::size_t kMostPortDigits = 5;
-constexpr int kMostPort = 65535;
-
-constexpr const char* kSystemd = "systemd";
-
-bool is_unix(const std::string& listen) { return listen.starts_with("unix:"); }
-
-void require_address(const std::string& listen) {
-  const std::size_t colon = listen.rfind(':');
-  const bool has_port = colon != std::string::npos && colon > 0 && colon + 1 < listen.size() &&
-                        listen.size() <= colon + 1 + kMostPortDigits &&
-                        listen.find_first_not_of("0123456789", colon + 1) == std::string::npos &&
-                        std::stoi(listen.substr(colon + 1)) <= kMostPort;
-  if (listen.empty() || listen == kSystemd || is_unix(listen) || has_port) return;
-  throw std::runtime_error("cannot listen on \"" + listen +
-                           "\": give HOST:PORT, with a port up to 65535, or unix:PATH");
+// What the connections speak: TLS if there is a certificate.
+std::shared_ptr<grpc::ServerCredentials> make_credentials(const SecuritySettings& settings) {
+  if (settings.tls.certificate.empty()) return grpc::InsecureServerCredentials();
+  return std::make_shared<TlsCredentials>(settings.tls);
 }
 
 grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const ServerOptions& options) {
@@ -69,11 +57,7 @@ grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const ServerOptions
   builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
   // A port that another server listens on is an error, not shared.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // A client that vanished without a word does not hold its stream for ever; one that pings for its own sake may.
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
-  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kMinPingIntervalMs);
+  apply(options.connections, builder);
   return builder;
 }
 
@@ -92,7 +76,9 @@ struct Server::Parts {
         http(make_http(options.observe.http_listen, observation)),
         desk({thread_count(options.planning_threads), caps.queue_length, caps.stored_plans, caps.stored_bytes},
              [this](const jobs::PlanDesk::Planned& planned) { report(observation, planned); }),
-        service(desk, caps, observation) {
+        access(options.security),
+        service(desk, caps, access, observation),
+        credentials(make_credentials(options.security)) {
     add_readings(observation.registry, desk);
   }
   ~Parts() { http.reset(); }  // it reads from the desk
@@ -103,7 +89,9 @@ struct Server::Parts {
   Observation observation;
   std::unique_ptr<observe::HttpEndpoint> http;  // null if nobody asked for it
   jobs::PlanDesk desk;
+  AccessControl access;
   PlanningService service;
+  std::shared_ptr<grpc::ServerCredentials> credentials;  // stay as long as the server
   std::string address;
   std::unique_ptr<grpc::Server> server;
   std::unique_ptr<SocketAcceptor> acceptor;  // null unless systemd listens
@@ -112,7 +100,7 @@ struct Server::Parts {
 };
 
 Server::Server(const ServerOptions& options) {
-  require_address(options.listen);
+  require_safe(options.security, options.listen);
   parts_ = std::make_unique<Parts>(options);
   if (options.observe.channelz) grpc::channelz::experimental::InitChannelzService();  // for builders made afterwards
   grpc::ServerBuilder builder;
@@ -130,7 +118,7 @@ Server::Server(const ServerOptions& options) {
 
 void Server::serve_address(grpc::ServerBuilder& builder, const std::string& listen) {
   int port = 0;
-  if (!listen.empty()) builder.AddListeningPort(listen, grpc::InsecureServerCredentials(), &port);
+  if (!listen.empty()) builder.AddListeningPort(listen, parts_->credentials, &port);
   parts_->server = builder.BuildAndStart();
   if (parts_->server == nullptr || (!listen.empty() && port == 0)) {
     throw std::runtime_error("cannot listen on " + listen +
@@ -148,7 +136,7 @@ void Server::serve_inherited(grpc::ServerBuilder& builder) {
   }
   using Builder = std::remove_reference_t<decltype(builder.experimental())>;
   auto acceptor = builder.experimental().AddExternalConnectionAcceptor(Builder::ExternalConnectionType::FROM_FD,
-                                                                       grpc::InsecureServerCredentials());
+                                                                       parts_->credentials);
   parts_->server = builder.BuildAndStart();
   if (parts_->server == nullptr) throw std::runtime_error("cannot serve on the sockets of systemd");
   parts_->acceptor = std::make_unique<SocketAcceptor>(std::move(sockets), std::move(acceptor));

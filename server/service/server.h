@@ -11,7 +11,9 @@
 
 #include "server/observe/log.h"
 #include "server/service/caps.h"
+#include "server/service/connections.h"
 #include "server/service/observe_settings.h"
+#include "server/service/security.h"
 
 namespace kcs::service {
 
@@ -23,6 +25,8 @@ struct ServerOptions {
   std::size_t planning_threads = 0;
   Caps caps;
   ObserveSettings observe;
+  SecuritySettings security;
+  ConnectionSettings connections;
   // Where it logs to.
   observe::Log log;
 };
@@ -30,7 +34,7 @@ struct ServerOptions {
 // Serves from construction until stop() or destruction. Its methods may be called from any thread.
 class Server {
  public:
-  // Throws std::runtime_error, with the address and the remedy, if it cannot listen there.
+  // Throws std::runtime_error, with the address and the remedy, if it cannot listen there or would let strangers in.
   explicit Server(const ServerOptions& options);
   // Stops without grace.
   ~Server();

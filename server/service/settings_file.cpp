@@ -26,6 +26,17 @@ void read_table(const toml::table& table, const std::string& name, const Keys& k
   }
 }
 
+void read_root(const std::string& file, const Keys& tables, const std::function<toml::table()>& parse) {
+  toml::table root;
+  try {
+    root = parse();
+  } catch (const toml::parse_error& error) {
+    if (error.source().begin.line == 0) throw std::runtime_error(file + ": " + std::string(error.description()));
+    refuse(error.source(), std::string(error.description()));
+  }
+  read_table(root, "at the top level", tables);
+}
+
 std::string string_in(const toml::node& node) {
   const auto value = node.value_exact<std::string>();
   if (!value) refuse_value(node, "must be a string");
@@ -37,14 +48,11 @@ std::string string_in(const toml::node& node) {
 void refuse_value(const toml::node& node, const std::string& what) { refuse(node.source(), what); }
 
 void read_tables(const std::string& file, const Keys& tables) {
-  toml::table root;
-  try {
-    root = toml::parse_file(file);
-  } catch (const toml::parse_error& error) {
-    if (error.source().begin.line == 0) throw std::runtime_error(file + ": " + std::string(error.description()));
-    refuse(error.source(), std::string(error.description()));
-  }
-  read_table(root, "at the top level", tables);
+  read_root(file, tables, [&file] { return toml::parse_file(file); });
+}
+
+void read_tables(const std::string& text, const std::string& file, const Keys& tables) {
+  read_root(file, tables, [&] { return toml::parse(text, file); });
 }
 
 TakeValue table_of(const std::string& name, Keys keys) {

@@ -22,6 +22,8 @@ using Keys = std::map<std::string, TakeValue, std::less<>>;
 
 // Reads a whole file: each of its tables. Throws std::runtime_error that starts with "FILE:LINE:".
 void read_tables(const std::string& file, const Keys& tables);
+// The same for the text of a file that was read already.
+void read_tables(const std::string& text, const std::string& file, const Keys& tables);
 
 // The value of a table; the name is its key, without brackets.
 TakeValue table_of(const std::string& name, Keys keys);

@@ -81,6 +81,10 @@ CallEnd end_by_current_exception() {
     return {
         failure(grpc::StatusCode::NOT_FOUND,
                 "the server does not keep this plan; send its request again: the same request gives the same plan")};
+  } catch (const Unauthenticated& refused) {
+    return {failure(grpc::StatusCode::UNAUTHENTICATED, refused.what())};
+  } catch (const Forbidden& refused) {
+    return {failure(grpc::StatusCode::PERMISSION_DENIED, refused.what())};
   } catch (const Stopping&) {
     return {stopping()};
   } catch (const Cancelled&) {

@@ -3,6 +3,7 @@
 
 #include <grpcpp/support/status.h>
 
+#include <stdexcept>
 #include <string>
 
 namespace kcs::service {
@@ -16,6 +17,8 @@ struct CallEnd {
 //   planning::InvalidInput   INVALID_ARGUMENT with a google.rpc.BadRequest in the status details
 //   jobs::CapExceeded        RESOURCE_EXHAUSTED, which names the cap; with a google.rpc.RetryInfo if that may help
 //   NotKept                  NOT_FOUND
+//   Unauthenticated          UNAUTHENTICATED
+//   Forbidden                PERMISSION_DENIED
 //   Stopping                 UNAVAILABLE with a google.rpc.RetryInfo
 //   Cancelled                CANCELLED
 //   std::future_error        UNAVAILABLE with a google.rpc.RetryInfo: the server stopped before the plan was made
@@ -23,8 +26,19 @@ struct CallEnd {
 //   anything else            INTERNAL with the reason: a defect of kcs
 CallEnd end_by_current_exception();
 
-// Thrown where a plan is asked for that the server does not keep.
+// Thrown where a plan is asked for that the server does not keep, or that belongs to somebody else: which of the two it
+// is, is nobody's business.
 struct NotKept {};
+
+// Thrown where nobody knows who calls. what() says what to send; never a token.
+struct Unauthenticated : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Thrown where somebody calls what he may not. what() names the role that he needs.
+struct Forbidden : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 // Thrown where a call comes after the server was told to stop.
 struct Stopping {};

@@ -36,6 +36,7 @@ class TestServer {
   explicit TestServer(ServerOptions options = {});
 
   Server& server() { return *server_; }
+  const std::string& address() const { return server_->address(); }
   v1::PlanningService::Stub& stub() { return *stub_; }
   // A connection of its own.
   std::shared_ptr<grpc::Channel> new_channel() const;
