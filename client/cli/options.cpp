@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "client/common/connection_options.h"
 #include "client/common/exit_code.h"
 
 namespace kcs::cli {
@@ -32,8 +33,7 @@ void add_common_options(CLI::App& app, Options& options) {
   app.add_option("--period", options.period_s,
                  "time between two setpoints (default: 0.001);\nwithout effect on plan and corners")
       ->option_text("S");
-  app.add_option("--server", options.server, "plan on this kcsd instead of inside this process")
-      ->option_text("HOST:PORT");
+  client::add_connection_options(app, options.server, "plan on this kcsd instead of inside this process");
 }
 
 CLI::App* add_command(CLI::App& app, Options& options, Command command, const std::string& name,

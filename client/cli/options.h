@@ -7,6 +7,7 @@
 
 #include "client/common/command_line.h"
 #include "client/common/planning_options.h"
+#include "client/sdk/connection.h"
 #include "client/sdk/plan.h"
 #include "client/sdk/setpoint_stream.h"
 
@@ -18,9 +19,9 @@ struct Options {
   Command command = Command::kPlan;
   std::string file;  // the G-code program; "-": standard input
   std::string machine = client::kDefaultMachine;
-  client::PlanOptions plan;           // all but the machine
-  double period_s = 0.001;            // between two setpoints; of use to stream, live and plot alone
-  std::optional<std::string> server;  // HOST:PORT; none: plan inside this process
+  client::PlanOptions plan;   // all but the machine
+  double period_s = 0.001;    // between two setpoints; of use to stream, live and plot alone
+  client::Connection server;  // without an address: plan inside this process
 
   bool json = false;                      // plan, live, corners
   std::string output;                     // stream, live (empty: none), plot; "-": standard output

@@ -24,8 +24,8 @@ std::unique_ptr<service::Server> make_local_server() {
 }  // namespace
 
 PlannerAccess::PlannerAccess(const Options& options) {
-  if (options.server) {
-    planner_ = std::make_unique<client::Planner>(*options.server);
+  if (!options.server.address.empty()) {
+    planner_ = std::make_unique<client::Planner>(options.server);
   } else {
     server_ = make_local_server();
     planner_ = std::make_unique<client::Planner>(server_->in_process_channel());

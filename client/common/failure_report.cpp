@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cstdlib>
 #include <iostream>
 #include <string_view>
 #include <system_error>
@@ -17,6 +18,10 @@ ExitCode exit_code_of(const std::string& status) {
   if (status == "UNAVAILABLE" || status == "DEADLINE_EXCEEDED" || status == "CANCELLED") return kNoServer;
   if (status == "INTERNAL" || status == "UNKNOWN" || status == "DATA_LOSS") return kDefect;
   return kRefused;
+}
+
+std::string_view hint(const std::string& status) {
+  return status == "UNAUTHENTICATED" ? " (--token-file FILE, or KCS_TOKEN_FILE)" : "";
 }
 
 // Where the violation is: "FILE:12:5" for "gcode, line 12, column 5".
@@ -39,7 +44,7 @@ FailureReport describe(const Error& error, const std::string& tool, const std::s
   for (const FieldViolation& violation : error.violations()) {
     report.text += fmt::format("{}: {}\n", place_of(violation, tool, gcode_file), violation.description);
   }
-  if (report.text.empty()) report.text = fmt::format("{}: {}\n", tool, error.what());
+  if (report.text.empty()) report.text = fmt::format("{}: {}{}\n", tool, error.what(), hint(error.code()));
   return report;
 }
 
@@ -66,6 +71,8 @@ FailureReport describe_failure(const std::exception_ptr& failure, const std::str
 }
 
 int run_and_report(const std::string& tool, const std::string& gcode_file, const std::function<ExitCode()>& work) {
+  // What gRPC has to say of a connection that failed is in the report; whoever wants more says so.
+  setenv("GRPC_VERBOSITY", "NONE", /*overwrite=*/0);
   try {
     return work();
   } catch (...) {

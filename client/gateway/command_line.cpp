@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "client/common/connection_options.h"
 #include "client/common/exit_code.h"
 #include "client/common/planning_options.h"
 
@@ -19,7 +20,7 @@ void add_source(CLI::App& app, CommandLine& options) {
   app.add_option("--plan", options.plan, "plan to play that the server keeps, instead of FILE")
       ->excludes(file)
       ->option_text("plans/NAME");
-  app.add_option("--server", options.server, "the kcsd to take the plan from")->required()->option_text("HOST:PORT");
+  client::add_connection_options(app, options.server, "the kcsd to take the plan from")->required();
 }
 
 // CLI::Range lets NaN pass.

@@ -7,13 +7,14 @@
 #include "client/common/command_line.h"
 #include "client/common/planning_options.h"
 #include "client/gateway/playback.h"
+#include "client/sdk/connection.h"
 
 namespace kcs::gateway {
 
 struct CommandLine {
-  std::string server;  // HOST:PORT
-  std::string plan;    // "plans/…"; empty if a program is given
-  std::string file;    // a G-code program; empty if a plan is given
+  client::Connection server;
+  std::string plan;  // "plans/…"; empty if a program is given
+  std::string file;  // a G-code program; empty if a plan is given
   std::string machine = client::kDefaultMachine;
   client::PlanOptions planning;  // all but the machine
   PlaybackOptions playback;

@@ -24,10 +24,11 @@ void require_rest(const client::Plan& plan) {
 
 }  // namespace
 
-PlanSource::PlanSource(std::string address, std::string name) : address_(std::move(address)), name_(std::move(name)) {}
+PlanSource::PlanSource(client::Connection server, std::string name)
+    : server_(std::move(server)), name_(std::move(name)) {}
 
-PlanSource::PlanSource(std::string address, Program program)
-    : address_(std::move(address)), program_(std::move(program)) {}
+PlanSource::PlanSource(client::Connection server, Program program)
+    : server_(std::move(server)), program_(std::move(program)) {}
 
 client::Plan PlanSource::obtain() {
   connect();
@@ -58,7 +59,7 @@ void PlanSource::reconnect(const std::stop_token& stop) {
 
 void PlanSource::connect() {
   planner_.reset();  // first, for a new planner would share the old one's wait before its next attempt
-  planner_.emplace(address_);
+  planner_.emplace(server_);
 }
 
 client::Plan PlanSource::make(const std::stop_token& stop) {

@@ -21,11 +21,11 @@ struct Program {
 // were. Calls throw client::Error; client::FileError if the program's file cannot be read or has changed meanwhile.
 class PlanSource {
  public:
-  // The plan `name` ("plans/…") that the server at `address` keeps.
-  PlanSource(std::string address, std::string name);
+  // The plan `name` ("plans/…") that the server keeps.
+  PlanSource(client::Connection server, std::string name);
 
-  // The plan that the server at `address` makes of `program`.
-  PlanSource(std::string address, Program program);
+  // The plan that the server makes of `program`.
+  PlanSource(client::Connection server, Program program);
 
   // Fetches the plan, or has it made.
   client::Plan obtain();
@@ -41,7 +41,7 @@ class PlanSource {
   void connect();
   client::Plan make(const std::stop_token& stop);
 
-  std::string address_;
+  client::Connection server_;
   std::string name_;
   std::optional<Program> program_;
   std::optional<client::Planner> planner_;

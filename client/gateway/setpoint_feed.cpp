@@ -29,8 +29,9 @@ std::uint32_t piece_size(std::size_t capacity) {
 
 // Whether the same call may succeed later.
 bool may_pass(const client::Error& error) {
-  constexpr std::array<std::string_view, 6> kFinal = {"INVALID_ARGUMENT",  "NOT_FOUND",    "FAILED_PRECONDITION",
-                                                      "PERMISSION_DENIED", "OUT_OF_RANGE", "UNIMPLEMENTED"};
+  constexpr std::array<std::string_view, 7> kFinal = {"INVALID_ARGUMENT",  "NOT_FOUND",       "FAILED_PRECONDITION",
+                                                      "PERMISSION_DENIED", "UNAUTHENTICATED", "OUT_OF_RANGE",
+                                                      "UNIMPLEMENTED"};
   return std::find(kFinal.begin(), kFinal.end(), error.code()) == kFinal.end();
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "client/sdk/connection.h"
 #include "client/sdk/error.h"
 #include "client/sdk/live_stream.h"
 #include "client/sdk/machine.h"
@@ -36,6 +37,10 @@ class Planner {
   // The server at `address`, "HOST:PORT" or "unix:/path/of/socket". Does not connect yet: the first call does, and each
   // call gives up after `patience` if no server can be reached meanwhile.
   explicit Planner(const std::string& address, std::chrono::milliseconds patience = std::chrono::seconds(5));
+
+  // The same with TLS, a token, or both. Throws std::system_error if a file cannot be read, Error ("INVALID_ARGUMENT")
+  // if the connection contradicts itself, or would show its token to whoever listens on the network.
+  explicit Planner(const Connection& connection);
 
   // A server behind a channel made elsewhere, for instance one inside this process.
   explicit Planner(std::shared_ptr<grpc::Channel> channel);
@@ -71,8 +76,8 @@ class Planner {
   LiveStream plan_live(const PlanOptions& options, const LiveOptions& output, const std::stop_token& stop = {});
 
  private:
-  class Connection;
-  std::unique_ptr<Connection> connection_;
+  class Link;
+  std::unique_ptr<Link> link_;
 };
 
 }  // namespace kcs::client

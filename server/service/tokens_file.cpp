@@ -38,7 +38,7 @@ void TokensFile::read() {
   if (tokens_ != nullptr && text == text_) return;
   text_ = std::move(text);
   tokens_ = std::make_shared<const std::vector<security::KnownToken>>(parse_tokens(text_, file_));
-  spdlog::info("{}: {} tokens are valid", file_, tokens_->size());
+  spdlog::info("{}: valid tokens: {}", file_, tokens_->size());
 }
 
 }  // namespace kcs::service

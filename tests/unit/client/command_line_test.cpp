@@ -29,7 +29,8 @@ TEST(CommandLine, DefaultsNeedOnlyAFile) {
   EXPECT_EQ(options.machine, "router");
   EXPECT_FALSE(options.plan.tolerance_mm.has_value());
   EXPECT_EQ(options.plan.strategy, client::CornerStrategy::kAuto);
-  EXPECT_FALSE(options.server.has_value());
+  EXPECT_EQ(options.server.address, "");
+  EXPECT_FALSE(options.server.tls);
 }
 
 TEST(CommandLine, EveryOptionArrives) {
@@ -51,9 +52,33 @@ TEST(CommandLine, EveryOptionArrives) {
   EXPECT_EQ(options.plan.strategy, client::CornerStrategy::kExactStop);
   EXPECT_EQ(options.plan.feed_mm_s, 100);
   EXPECT_EQ(options.plan.start_mm, (std::vector<double>{-1, 2, -3.5}));
-  EXPECT_EQ(options.server, "localhost:1");
+  EXPECT_EQ(options.server.address, "localhost:1");
   EXPECT_EQ(options.period_s, 0.004);
   EXPECT_EQ(options.channels, (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity}));
+}
+
+TEST(CommandLine, CertificatesMeanTls) {
+  const auto [options, message] = parse({"plan", "part.ngc", "--server", "localhost:1", "--tls-ca", "ca.pem",
+                                         "--tls-cert", "own.pem", "--tls-key", "key.pem", "--token-file", "token"});
+  ASSERT_FALSE(message.has_value()) << message->text;
+  EXPECT_TRUE(options.server.tls);
+  EXPECT_EQ(options.server.ca_file, "ca.pem");
+  EXPECT_EQ(options.server.certificate_file, "own.pem");
+  EXPECT_EQ(options.server.key_file, "key.pem");
+  EXPECT_EQ(options.server.token_file, "token");
+  EXPECT_TRUE(parse({"plan", "part.ngc", "--server", "localhost:1", "--tls"}).options.server.tls);
+  EXPECT_FALSE(parse({"plan", "part.ngc", "--server", "localhost:1", "--token-file", "token"}).options.server.tls);
+}
+
+TEST(CommandLine, CertificatesWithoutTheirServerOrKeyAreRefused) {
+  for (const std::vector<const char*>& arguments :
+       {std::vector{"plan", "part.ngc", "--tls"}, std::vector{"plan", "part.ngc", "--tls-ca", "ca.pem"},
+        std::vector{"plan", "part.ngc", "--server", "localhost:1", "--tls-cert", "own.pem"},
+        std::vector{"plan", "part.ngc", "--server", "localhost:1", "--tls-key", "key.pem"}}) {
+    const Parsed parsed = parse(arguments);
+    ASSERT_TRUE(parsed.message.has_value()) << arguments.back();
+    EXPECT_TRUE(parsed.message->is_error);
+  }
 }
 
 TEST(CommandLine, LiveTakesWhatStreamTakesAndSpeeds) {

@@ -9,7 +9,7 @@ namespace kcs::gateway {
 namespace {
 
 PlaybackResult play_fast(const FakeServer& server, double patience_s) {
-  PlanSource source(server.address(), FakeServer::kPlan);
+  PlanSource source({.address = server.address()}, FakeServer::kPlan);
   const client::Plan plan = source.obtain();
   PlaybackOptions options;
   options.simulated_time = true;

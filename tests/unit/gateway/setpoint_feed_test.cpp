@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 constexpr milliseconds kAtOnce{2000};  // far less than any patience of the feed
 
 PlanSource kept_plan(const FakeServer& server) {
-  PlanSource source(server.address(), FakeServer::kPlan);
+  PlanSource source({.address = server.address()}, FakeServer::kPlan);
   source.obtain();
   return source;
 }
@@ -154,7 +154,7 @@ TEST(SetpointFeed, APlanningThatHangsDoesNotHoldUpTheEnd) {
   FakeServer server;
   const auto file = std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + "-feed.ngc");
   std::ofstream(file) << "G1 X1 F1\n";
-  PlanSource source(server.address(), Program{.file = file, .options = {}});
+  PlanSource source({.address = server.address()}, Program{.file = file, .options = {}});
   source.obtain();
   std::atomic<bool> planning = false;
   server.on_stream = [](grpc::ServerContext&, const FakeServer::Request&, FakeServer::Writer&) {

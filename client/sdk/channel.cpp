@@ -1,0 +1,72 @@
+#include "client/sdk/channel.h"
+
+#include <fmt/core.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+
+#include <string>
+
+#include "client/sdk/error.h"
+#include "client/sdk/text_file.h"
+#include "client/sdk/token_credentials.h"
+
+namespace kcs::client {
+namespace {
+
+// A server that answers a ping keeps a call alive, even one that plans for an hour; one that does not ends it.
+constexpr int kPingAfterSilenceMs = 10'000;
+constexpr int kPingTimeoutMs = 10'000;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error("INVALID_ARGUMENT", what); }
+
+bool is_unix(const std::string& address) { return address.starts_with("unix:"); }
+
+// What gRPC, too, takes for this machine.
+bool is_loopback(const std::string& address) {
+  const std::string host = address.substr(0, address.rfind(':'));
+  return host == "localhost" || host == "127.0.0.1" || host == "[::1]";
+}
+
+std::string read_pem(const std::filesystem::path& file) {
+  if (file.empty()) return "";
+  std::string text = read_text_file(file);
+  if (text.find("-----BEGIN ") == std::string::npos) refuse(fmt::format("{}: is no PEM file", file.string()));
+  return text;
+}
+
+std::shared_ptr<grpc::ChannelCredentials> tls_credentials(const Connection& connection) {
+  if (connection.certificate_file.empty() != connection.key_file.empty()) {
+    refuse("a client's certificate and its key go together: give both, or neither");
+  }
+  return grpc::SslCredentials({.pem_root_certs = read_pem(connection.ca_file),
+                               .pem_private_key = read_pem(connection.key_file),
+                               .pem_cert_chain = read_pem(connection.certificate_file)});
+}
+
+// gRPC sends a token over no plain connection, but over one of these: they exist on this machine alone.
+std::shared_ptr<grpc::ChannelCredentials> local_credentials(const Connection& connection) {
+  if (is_unix(connection.address)) return grpc::experimental::LocalCredentials(UDS);
+  if (is_loopback(connection.address)) return grpc::experimental::LocalCredentials(LOCAL_TCP);
+  refuse(fmt::format("without TLS everybody on the way to {} could read the token: use TLS, or send none",
+                     connection.address));
+}
+
+std::shared_ptr<grpc::ChannelCredentials> credentials(const Connection& connection) {
+  if (connection.token_file.empty()) {
+    return connection.tls ? tls_credentials(connection) : grpc::InsecureChannelCredentials();
+  }
+  return grpc::CompositeChannelCredentials(connection.tls ? tls_credentials(connection) : local_credentials(connection),
+                                           token_credentials(connection.token_file, connection.tls));
+}
+
+}  // namespace
+
+std::shared_ptr<grpc::Channel> open_channel(const Connection& connection) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kPingAfterSilenceMs);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kPingTimeoutMs);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number of them
+  return grpc::CreateCustomChannel(connection.address, credentials(connection), arguments);
+}
+
+}  // namespace kcs::client
