@@ -6,6 +6,7 @@
 
 #include "server/planning/leg_profile.h"
 #include "server/planning/lookahead.h"
+#include "server/planning/stopped.h"
 
 namespace kcs::planning {
 namespace {
@@ -15,10 +16,11 @@ namespace {
 constexpr int kAttempts = 2;
 
 // Without dwells, s.
-double travel_time(const CornerPlan& plan, const Entry& begin) {
+double travel_time(const CornerPlan& plan, const Entry& begin, const std::stop_token& stop) {
   double time = 0;
   CornerMotion entry = begin.motion;
   for (std::size_t i = 0; i < plan.stages.size(); ++i) {
+    throw_if_stopped(stop);
     const Stage& stage = plan.stages[i];
     const CornerMotion exit = stage.exit.at(plan.speeds[i]);
     time += stage.stretch ? stage.stretch->spline().duration() : leg_time(stage.leg, entry, exit);
@@ -37,7 +39,7 @@ std::optional<CornerPlan> plan_corners(const LegPath& path, const Entry& entry, 
     auto [stages, needs] = stages_of(path, entry, end_speed, alone, options);
     const std::size_t known = alone.size();
     if (entry.begun && stages.front().stretch->failed()) return {};
-    auto speeds = corner_speeds(stages, entry.motion);
+    auto speeds = corner_speeds(stages, entry.motion, options.stop);
     if (!speeds || (entry.begun && stages.front().stretch->failed())) return {};
     for (const Stage& stage : stages) {
       if (stage.stretch && stage.stretch->failed()) alone.insert(stage.first_leg);
@@ -57,7 +59,7 @@ std::optional<CornerPlan> compare_corners(const LegPath& path, const Entry& entr
     PlanOptions one = options;
     one.strategy = strategy;
     auto other = plan_corners(path, entry, end_speed, one);
-    if (!other || (best && travel_time(*other, entry) >= travel_time(*best, entry))) continue;
+    if (!other || (best && travel_time(*other, entry, one.stop) >= travel_time(*best, entry, one.stop))) continue;
     other->taken_apart = best && best->taken_apart;
     best = std::move(other);
   }

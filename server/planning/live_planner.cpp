@@ -8,6 +8,7 @@
 
 #include "server/planning/invalid_input.h"
 #include "server/planning/leg_profile.h"
+#include "server/planning/stopped.h"
 #include "server/planning/validation.h"
 
 namespace kcs::planning {
@@ -226,13 +227,17 @@ void LivePlanner::go_on(const Section::Cut& from, const Section::Cut& to, std::s
 }
 
 void LivePlanner::pass_on(std::span<const motion::Phase> phases) {
-  for (const motion::Phase& phase : phases) receiver_.take(phase);
+  for (const motion::Phase& phase : phases) {
+    throw_if_stopped(options_.stop);
+    receiver_.take(phase);
+  }
   if (!phases.empty()) time_ = phases.back().end_time();
 }
 
 // Shows the first legs to the verifier.
 void LivePlanner::show_path(std::size_t legs) {
   for (; shown_ < legs; ++shown_) {
+    throw_if_stopped(options_.stop);
     double reach = 0;
     if (!at_end(shown_ + 1) && !legs_.joint(shown_).stop) {
       reach = corner_geometry(legs_.leg(shown_), legs_.leg(shown_ + 1), options_).reach;
@@ -241,8 +246,11 @@ void LivePlanner::show_path(std::size_t legs) {
   }
 }
 
-void LivePlanner::follow(motion::Verifier& verifier, std::span<const motion::Phase> phases) {
-  for (const motion::Phase& phase : phases) verifier.follow(phase);
+void LivePlanner::follow(motion::Verifier& verifier, std::span<const motion::Phase> phases) const {
+  for (const motion::Phase& phase : phases) {
+    throw_if_stopped(options_.stop);
+    verifier.follow(phase);
+  }
 }
 
 void LivePlanner::check(const std::string& fault) {

@@ -22,6 +22,7 @@ namespace kcs::planning {
 // the first part of that is verified, settled and passed on, and the next section goes on from there. So there is
 // always a verified way to rest, and it is followed if no faster one is found. What is settled depends on the path
 // alone, not on how it arrives. Memory: that of a section. Time: linear in the number of segments.
+// Every method that plans throws Stopped if options.stop asks for it; the planner is of no use then.
 class LivePlanner {
  public:
   // `receiver` must outlive the planner; it gets phases and corners, in order. Throws InvalidInput.
@@ -48,7 +49,7 @@ class LivePlanner {
   void go_on(const Section::Cut& from, const Section::Cut& to, std::size_t dropped);
   void pass_on(std::span<const motion::Phase> phases);
   void show_path(std::size_t legs);
-  static void follow(motion::Verifier& verifier, std::span<const motion::Phase> phases);
+  void follow(motion::Verifier& verifier, std::span<const motion::Phase> phases) const;
   static void check(const std::string& fault);
 
   PathEnds ends_;

@@ -4,6 +4,7 @@
 
 #include "server/planning/leg_profile.h"
 #include "server/planning/search.h"
+#include "server/planning/stopped.h"
 
 namespace kcs::planning {
 namespace {
@@ -26,7 +27,8 @@ struct Span {
 
 class LookAhead {
  public:
-  LookAhead(std::span<const Stage> stages, const CornerMotion& entry) : stages_(stages), entry_(Settled{entry}) {
+  LookAhead(std::span<const Stage> stages, const CornerMotion& entry, const std::stop_token& stop)
+      : stages_(stages), entry_(Settled{entry}), stop_(stop) {
     for (const Stage& stage : stages) speeds_.push_back(stage.exit.max_speed());
   }
 
@@ -47,6 +49,7 @@ class LookAhead {
 
   // Lowers the greatest speeds of both corners to a common level that the leg can carry.
   void level(std::size_t i) {
+    throw_if_stopped(stop_);
     if (stages_[i].stretch) return;
     const Span span = this->span(i);
     const double entry_cap = span.entry.max_speed(), exit_cap = span.exit.max_speed();
@@ -62,6 +65,7 @@ class LookAhead {
 
   // Lowers the entry of stage i until the tool can brake to its exit.
   void brake(std::size_t i) {
+    throw_if_stopped(stop_);
     double& entry = speeds_[i - 1];
     const double exit = speeds_[i];
     if (stages_[i].stretch) {
@@ -76,6 +80,7 @@ class LookAhead {
 
   // Lowers the exit of stage i until it can be reached from its entry.
   void accelerate(std::size_t i) {
+    throw_if_stopped(stop_);
     const double entry = entry_speed(i);
     double& exit = speeds_[i];
     if (stages_[i].stretch) {
@@ -95,14 +100,16 @@ class LookAhead {
 
   std::span<const Stage> stages_;
   Cornering entry_;
+  const std::stop_token& stop_;
   std::vector<double> speeds_;
   bool again_ = false;
 };
 
 }  // namespace
 
-std::optional<std::vector<double>> corner_speeds(std::span<const Stage> stages, const CornerMotion& entry) {
-  return LookAhead(stages, entry).run();
+std::optional<std::vector<double>> corner_speeds(std::span<const Stage> stages, const CornerMotion& entry,
+                                                 const std::stop_token& stop) {
+  return LookAhead(stages, entry, stop).run();
 }
 
 }  // namespace kcs::planning

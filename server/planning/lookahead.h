@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "server/planning/stage.h"
@@ -15,7 +16,8 @@ namespace kcs::planning {
 // stages, in three passes: each leg's corners are lowered together until the leg could carry both at equal level;
 // backward, each corner until the tool can brake to the next one; forward, until it can be reached from the one before.
 // A lowered corner never makes another leg impossible, because needed_length grows with the common level, and with the
-// faster corner's speed alone.
-std::optional<std::vector<double>> corner_speeds(std::span<const Stage> stages, const CornerMotion& entry);
+// faster corner's speed alone. Throws Stopped.
+std::optional<std::vector<double>> corner_speeds(std::span<const Stage> stages, const CornerMotion& entry,
+                                                 const std::stop_token& stop);
 
 }  // namespace kcs::planning

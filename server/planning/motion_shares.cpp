@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "server/motion/contour.h"
+#include "server/planning/stopped.h"
 
 namespace kcs::planning {
 namespace {
@@ -56,7 +57,8 @@ double share_of(const Vector& difference, const Vector& per_limit) {
 
 }  // namespace
 
-void MotionShares::begin(const StretchPath& path, const TimeSpline* before) {
+void MotionShares::begin(const StretchPath& path, const TimeSpline* before, const std::stop_token& stop) {
+  stop_ = stop;
   first_corner_ = 0;
   if (before == nullptr) return;
   reached_.assign(path.legs().size(), false);
@@ -93,6 +95,7 @@ void MotionShares::measure_places(const StretchPath& path, TimeSpline& spline, s
   };
   double middle_before = 0;
   for (std::size_t i = 1; i + 1 < size; ++i) {
+    throw_if_stopped(stop_);
     const auto [at, share] = measure((1.0 / 6) * (points[i - 1] + points[i + 1]) + (4.0 / 6) * points[i], legs[i]);
     if (i >= 3 && i + 3 < size) {
       spline.ways[i] = std::clamp(at.way, spline.ways[i - 1], std::max(spline.ways[i - 1], spline.ways[size - 3]));
@@ -171,6 +174,7 @@ void MotionShares::measure_haste(const motion::AxisLimits& limits, const TimeSpl
   };
   for (std::size_t j = 0; j + 1 < feeds_.size(); ++j) {
     if (feeds_[j] == feeds_[j + 1]) continue;
+    throw_if_stopped(stop_);
     const double low = std::min(feeds_[j], feeds_[j + 1]);
     const bool rises = feeds_[j] == low;
     for (std::size_t n = 1; rises ? j + n < feeds_.size() : n <= j + 1; ++n) {
@@ -223,6 +227,7 @@ bool MotionShares::verify_piece(const StretchPath& path, const motion::AxisLimit
 // Between the first and the last leg.
 void MotionShares::pass_corners(const StretchPath& path, const motion::Phase& phase, std::size_t first,
                                 std::size_t last) {
+  throw_if_stopped(stop_);
   const auto curve = motion::Curve::between(phase.start, phase.at(phase.duration), phase.duration);
   for (std::size_t i = first; i < last; ++i) {
     if (!reached_[i]) reached_[i] = motion::comes_within(curve, path.corners()[i + 1], path.reach(i));

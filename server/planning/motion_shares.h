@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 #include "server/motion/limits.h"
@@ -27,8 +28,8 @@ struct SearchMode {
 class MotionShares {
  public:
   // To be called first. The motions that are measured go on from this one, or begin here if it is null: corners that it
-  // has come near to already are done with.
-  void begin(const StretchPath& path, const TimeSpline* before);
+  // has come near to already are done with. Measuring throws Stopped if `stop` asks for it.
+  void begin(const StretchPath& path, const TimeSpline* before, const std::stop_token& stop);
 
   // Measures the spline, whose points were drawn to the legs `legs`. Moves ways and legs of all points but the first
   // and the last three to the places on the path that the curve is nearest to.
@@ -64,6 +65,7 @@ class MotionShares {
   bool verify_corners(const StretchPath& path, const TimeSpline& spline);
   void raise(std::size_t from, std::size_t count, double share);
 
+  std::stop_token stop_;
   std::vector<double> place_, speed_, haste_, acceleration_, jerk_;
   std::vector<Vector> axis_jerk_;
   std::vector<double> feeds_;     // mm/s, where each speed belongs

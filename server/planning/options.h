@@ -1,6 +1,8 @@
 // What a plan is asked to keep to.
 #pragma once
 
+#include <stop_token>
+
 #include "server/motion/limits.h"
 #include "server/planning/range.h"
 
@@ -32,6 +34,9 @@ struct PlanOptions {
   AxisLimits limits;
   ToleranceKind tolerance_kind = ToleranceKind::kContourError;
   CornerStrategy strategy = CornerStrategy::kAuto;
+  // How to say that nobody wants the plan any more: planning then throws Stopped (stopped.h), within some milliseconds.
+  // No part of what is asked for.
+  std::stop_token stop;
 };
 
 }  // namespace kcs::planning

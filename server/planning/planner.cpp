@@ -1,32 +1,54 @@
 #include "server/planning/planner.h"
 
-#include "server/planning/live_planner.h"
+#include <algorithm>
+#include <utility>
+
+#include "server/planning/stopped.h"
 #include "server/planning/validation.h"
 
 namespace kcs::planning {
 namespace {
 
-class Keeper : public PlanReceiver {
- public:
-  explicit Keeper(Plan& plan) : plan_(plan) {}
-  void take(const motion::Phase& phase) override { plan_.trajectory.append(phase); }
-  void take(const Corner& corner) override { plan_.corners.append(corner); }
-
- private:
-  Plan& plan_;
-};
+const Toolpath& validated(const Toolpath& path, const PlanOptions& options) {
+  validate(path, options);
+  return path;
+}
 
 }  // namespace
 
+Planner::Planner(const Toolpath& path, const PlanOptions& options)
+    : path_(validated(path, options)),
+      stop_(options.stop),
+      plan_{.start = path.start},
+      planner_(path, options, *this) {}
+
+bool Planner::go_on() {
+  throw_if_stopped(stop_);
+  if (next_ < path_.segments.size()) {
+    planner_.add(path_.segments[next_++]);
+    return true;
+  }
+  plan_.summary = planner_.finish();
+  plan_.trajectory.set_final_state(planner_.end_state());
+  segments_planned_.store(path_.segments.size(), std::memory_order_relaxed);
+  return false;
+}
+
+// What comes before the segments of a phase is planned; segments of no length, which phases do not count, are made up
+// for at the end.
+void Planner::take(const motion::Phase& phase) {
+  plan_.trajectory.append(phase);
+  const std::size_t planned = phase.segments.first;
+  segments_planned_.store(std::max(planned, segments_planned()), std::memory_order_relaxed);
+}
+
+void Planner::take(const Corner& corner) { plan_.corners.append(corner); }
+
 Plan plan(const Toolpath& path, const PlanOptions& options) {
-  validate(path, options);
-  Plan plan{.start = path.start};
-  Keeper keeper(plan);
-  LivePlanner planner(path, options, keeper);
-  for (const Segment& segment : path.segments) planner.add(segment);
-  plan.summary = planner.finish();
-  plan.trajectory.set_final_state(planner.end_state());
-  return plan;
+  Planner planner(path, options);
+  while (planner.go_on()) {
+  }
+  return planner.take_plan();
 }
 
 }  // namespace kcs::planning

@@ -1,16 +1,53 @@
 // The planner: tool path and limits in, verified trajectory out.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
+#include <stop_token>
+#include <utility>
+
+#include "server/planning/live_planner.h"
 #include "server/planning/options.h"
 #include "server/planning/plan.h"
+#include "server/planning/plan_receiver.h"
 #include "server/planning/toolpath.h"
 
 namespace kcs::planning {
 
+// Plans a path bit by bit, so that whoever has other things to do can do them in between.
+class Planner final : PlanReceiver {
+ public:
+  // `path` must outlive the planner.
+  // Throws InvalidInput if a number is not finite or outside its range (options.h), naming the segment.
+  Planner(const Toolpath& path, const PlanOptions& options);
+
+  // Goes on with the next segment, or comes to the end of the path: mostly microseconds, now and then, when enough of
+  // the path is known to plan a section of it, some milliseconds, at worst seconds. True if there is more to do.
+  // Throws what plan() throws; there is nothing to go on with then.
+  bool go_on();
+
+  // So many segments of the path are planned and verified: never less than before. May be called from any thread.
+  std::size_t segments_planned() const { return segments_planned_.load(std::memory_order_relaxed); }
+
+  // The plan, once there is nothing more to do.
+  Plan take_plan() { return std::move(plan_); }
+
+ private:
+  void take(const motion::Phase& phase) override;
+  void take(const Corner& corner) override;
+
+  const Toolpath& path_;
+  std::stop_token stop_;
+  Plan plan_;
+  LivePlanner planner_;
+  std::size_t next_ = 0;  // segment
+  std::atomic<std::size_t> segments_planned_ = 0;
+};
+
 // Plans `path`. A pure function: the same input gives the same bytes, on any thread.
 // Throws InvalidInput if a number is not finite or outside its range (options.h), naming the segment, or if the path
-// has no segment; std::logic_error if the finished trajectory does not pass verification (a defect of kcs: the plan
-// is not served).
+// has no segment; Stopped if options.stop asks for it; std::logic_error if the finished trajectory does not pass
+// verification (a defect of kcs: the plan is not served).
 Plan plan(const Toolpath& path, const PlanOptions& options);
 
 }  // namespace kcs::planning

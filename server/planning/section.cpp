@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/planning/stopped.h"
 #include "server/planning/stretch_corners.h"
 
 namespace kcs::planning {
@@ -30,6 +31,7 @@ void Section::build(double time) {
   MotionBuilder builder(time);
   CornerMotion entry = entry_.motion;
   for (std::size_t i = 0; i < corners_.stages.size(); ++i) {
+    throw_if_stopped(options_.stop);
     const Stage& stage = corners_.stages[i];
     const CornerMotion exit = motion_after(i);
     first_phases_.push_back(builder.phases().size());
@@ -70,6 +72,7 @@ std::span<const motion::Phase> Section::phases(const Cut& from, const Cut& to) c
 double Section::record(const Cut& from, const Cut& to, CornerLog& log) const {
   double at_feed = 0;
   for (std::size_t i = from.stage; i < to.stage || (i == to.stage && to.points > 0); ++i) {
+    throw_if_stopped(options_.stop);
     const Stage& stage = corners_.stages[i];
     if (stage.stretch) {
       const std::size_t first = i == from.stage ? from.points : 0;

@@ -85,8 +85,9 @@ double step_of_time(double tolerance, const motion::AxisLimits& limits) {
   return std::min(kShareOfRamp * ramp_time(limits), kShareOfCorner * std::cbrt(6 * tolerance / jerk));
 }
 
-SmoothMotion::SmoothMotion(const StretchPath& path, const motion::AxisLimits& limits, double step)
-    : path_(path), limits_(limits), step_(step), hold_time_(hold_time(path.tolerance(), limits)) {}
+SmoothMotion::SmoothMotion(const StretchPath& path, const motion::AxisLimits& limits, double step,
+                           const std::stop_token& stop)
+    : path_(path), limits_(limits), step_(step), stop_(stop), hold_time_(hold_time(path.tolerance(), limits)) {}
 
 bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   if (draft.ways.empty()) return false;
@@ -100,7 +101,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   speeds_ = {(ways[1] - ways[0]) / step_, (ways.end()[-1] - ways.end()[-2]) / step_};
   if (range_.exact) speeds_ = range_.at_most;
   mode_.crowded = is_crowded();
-  shares_.begin(path_, range_.before);
+  shares_.begin(path_, range_.before, stop_);
   change_step(spline_.ways.size() < kFewestToCoarsen ? step_ : kCoarser * step_);
   const double longest = kMostGrowth * spline_.step * static_cast<double>(spline_.ways.size());
   int settled = kSettling;

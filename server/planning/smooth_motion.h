@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 #include "server/motion/limits.h"
@@ -49,11 +50,11 @@ double step_of_time(double tolerance, const motion::AxisLimits& limits);
 // Linear in the duration of the motion. Deterministic.
 class SmoothMotion {
  public:
-  // `path` and `limits` must outlive the motion. step: s, see step_of_time.
-  SmoothMotion(const StretchPath& path, const motion::AxisLimits& limits, double step);
+  // All three references must outlive the motion. step: s, see step_of_time.
+  SmoothMotion(const StretchPath& path, const motion::AxisLimits& limits, double step, const std::stop_token& stop);
 
   // Looks for a motion inside all limits and the tolerance, judged by the means of the verifier. False if none was
-  // found within a bounded number of rounds.
+  // found within a bounded number of rounds. Throws Stopped.
   bool search(const MotionRange& range, MotionDraft draft);
 
   // What was found. Its step is a little longer than what was asked for if that was what it took.
@@ -79,6 +80,7 @@ class SmoothMotion {
   const StretchPath& path_;
   const motion::AxisLimits& limits_;
   double step_;
+  const std::stop_token& stop_;
   double hold_time_;  // s, which all times of holding are shares of
   MotionRange range_;
   EndSpeeds speeds_;

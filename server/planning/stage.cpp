@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/planning/leg_profile.h"
+#include "server/planning/stopped.h"
 
 namespace kcs::planning {
 namespace {
@@ -31,7 +32,10 @@ class StageMaker {
   StageMaker(const LegPath& path, const Entry& entry, double end_speed, std::set<std::size_t>& alone,
              const PlanOptions& options)
       : path_(path), entry_(entry), end_speed_(end_speed), alone_(alone), options_(options), taken_(entry.taken) {
+    needs_.reserve(path.legs.size());
+    stages_.reserve(path.legs.size());
     for (std::size_t i = 0; i + 1 < path.legs.size(); ++i) {
+      throw_if_stopped(options.stop);
       if (options.strategy == CornerStrategy::kAuto) {
         add_needs(i);
       } else {
@@ -132,6 +136,7 @@ class StageMaker {
   }
 
   void add_leg(std::size_t i) {
+    throw_if_stopped(options_.stop);
     Stage stage{.leg = path_.legs[i], .first_leg = i, .last_leg = i};
     if (i + 1 == path_.legs.size()) {
       if (end_speed_ > 0) stage.exit = Cornering(Passage{end_speed_});

@@ -18,6 +18,7 @@ Values tail(const Values& values, std::size_t from) {
 Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& options, const EndSpeeds& at_most,
                  const BegunStretch* begun)
     : limits_(options.limits),
+      stop_(options.stop),
       begun_(begun),
       path_(path, range, options),
       step_(begun == nullptr ? step_of_time(path_.tolerance(), options.limits) : begun->settled.step) {
@@ -45,7 +46,7 @@ void Stretch::search(const EndSpeeds& at_most, bool exact) {
                           .at_most = at_most,
                           .exact = exact,
                           .before = begun_ == nullptr ? nullptr : &settled};
-  SmoothMotion motion(path_, limits_, step_);
+  SmoothMotion motion(path_, limits_, step_, stop_);
   if (!motion.search(range, draft(range))) {
     spline_ = {};
     speeds_ = {};

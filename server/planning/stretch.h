@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stop_token>
 
 #include "server/planning/entry.h"
 #include "server/planning/options.h"
@@ -43,6 +44,7 @@ class Stretch {
   MotionDraft draft(const MotionRange& range) const;
 
   AxisLimits limits_;
+  std::stop_token stop_;
   const BegunStretch* begun_;
   StretchPath path_;
   double step_;  // s

@@ -6,6 +6,7 @@
 
 #include "server/motion/contour.h"
 #include "server/planning/corner_geometry.h"
+#include "server/planning/stopped.h"
 
 namespace kcs::planning {
 namespace {
@@ -156,6 +157,7 @@ StretchTimes add_corners(const Stretch& stretch, std::size_t from, std::size_t t
   StretchTimes result{.at_feed = time_at_feed(stretch, from == 0 ? stretch.first_piece() : from - 3, to - 3)};
   if (from == 0 && stretch.first_piece() == 0) result.entry_lost = before - at_feed(0) / 2;
   for (std::size_t i = first; i < end; ++i) {
+    throw_if_stopped(options.stop);
     const CornerGeometry geometry = corner_geometry(legs[i], legs[i + 1], options);
     const Vector& point = path.corners()[i + 1];
     const auto [at, contour_error] = passing.to_end_of(i);

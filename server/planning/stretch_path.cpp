@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "server/planning/corner_geometry.h"
+#include "server/planning/stopped.h"
 
 namespace kcs::planning {
 namespace {
@@ -44,14 +45,15 @@ StretchPath::StretchPath(const LegPath& path, const LegRange& range, const PlanO
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     lines_.push_back({corners_[i], legs_[i].direction, ends_[i + 1] - ends_[i], 1 / legs_[i].tolerance});
   }
-  find_turns();
-  find_what_may_be_missed();
+  find_turns(options.stop);
+  find_what_may_be_missed(options.stop);
 }
 
 // Sharp corners, and what lies so near to one that the motion, which cuts it, leaves it out.
-void StretchPath::find_what_may_be_missed() {
+void StretchPath::find_what_may_be_missed(const std::stop_token& stop) {
   may_be_missed_.assign(reaches_.size(), false);
   for (std::size_t i = 0; i < reaches_.size(); ++i) {
+    throw_if_stopped(stop);
     if ((legs_[i + 1].direction - legs_[i].direction).squaredNorm() < kSharp * kSharp) continue;
     const double reach = reaches_[i];
     for (std::size_t k = i; k < reaches_.size() && ends_[k + 1] <= ends_[i + 1] + reach; ++k) may_be_missed_[k] = true;
@@ -59,9 +61,10 @@ void StretchPath::find_what_may_be_missed() {
   }
 }
 
-void StretchPath::find_turns() {
+void StretchPath::find_turns(const std::stop_token& stop) {
   const double detour = kDetour * tolerance_;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
+    throw_if_stopped(stop);
     for (std::size_t k = i + 1; k < lines_.size() && ends_[k] <= ends_[i + 1] + detour; ++k) {
       lines_[i].turn_after =
           std::max(lines_[i].turn_after, half_tangent_square(lines_[i].direction, lines_[k].direction));

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -91,8 +92,8 @@ class StretchPath {
     double feed;  // mm/s
   };
 
-  void find_turns();
-  void find_what_may_be_missed();
+  void find_turns(const std::stop_token& stop);
+  void find_what_may_be_missed(const std::stop_token& stop);
   double square_distance(const Vector& point, std::size_t leg, double& along) const;
 
   std::span<const Leg> legs_;
