@@ -2,61 +2,84 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
-#include <cstdint>
+#include <exception>
 #include <functional>
-#include <future>
+#include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <unordered_map>
 
+#include "server/jobs/plan_keeper.h"
 #include "server/jobs/plan_request.h"
-#include "server/jobs/plan_store.h"
-#include "server/jobs/worker_pool.h"
+#include "server/jobs/plan_work.h"
+#include "server/jobs/scheduler.h"
+#include "server/jobs/ticket.h"
 
 namespace kcs::jobs {
 
-// Brings requests, planning threads and the store together. A request that is handed in twice is planned once. Safe
-// for use by many threads at once. Destruction finishes the plans that are being computed and drops those that wait.
+// Brings requests, planning threads and the keeper of plans together. A request that is handed in by many at the same
+// time is planned once, when it is the turn of the first of them, and stopped when the last of them has gone. Safe for
+// use by many threads at once.
 class PlanDesk {
  public:
-  struct Limits {
-    std::size_t threads;       // that plan, ≥ 1
-    std::size_t queue_length;  // requests that may wait for one of them
-    std::size_t stored_plans;
-    std::uint64_t stored_bytes;
-  };
-
-  // A plan that was made.
+  // A plan that was made and is kept.
   struct Planned {
     const KeptPlan& plan;
-    const std::string& call;  // PlanRequest::call
+    const std::string& call;  // PlanRequest::call of the first who asked for it
     std::chrono::duration<double> taken;
   };
   using OnPlanned = std::function<void(const Planned&)>;
 
-  // on_planned: called by the threads that plan.
-  explicit PlanDesk(
-      const Limits& limits, OnPlanned on_planned = [](const Planned&) {});
+  // Keeps a reference to the keeper. on_planned: called by the threads that plan, before anyone else hears of the plan;
+  // must not throw.
+  PlanDesk(
+      PlanKeeper& keeper, const Scheduler::Limits& limits, OnPlanned on_planned = [](const Planned&) {});
+  // Stops what is under way without a ticket, and waits until it has stopped. All tickets must have gone.
+  ~PlanDesk();
+  PlanDesk(const PlanDesk&) = delete;
+  PlanDesk& operator=(const PlanDesk&) = delete;
 
-  // The plan of `request`, kept in the store once it is there. Getting the future's value throws what planning::plan()
-  // throws, CapExceeded if the plan does not fit into the store, or std::future_error if the desk closed first.
-  // Throws CapExceeded if too many requests wait.
-  std::shared_future<PlanPointer> submit(PlanRequest request);
+  // Has a request planned, unless its plan is kept already. Throws CapExceeded if too many wait.
+  Ticket submit(PlanRequest request, const Client& client, Priority priority);
 
-  PlanStore& store() { return store_; }
+  // Looks on at a planning under way; nothing if there is none of that name.
+  std::optional<PlanWatch> watch(const std::string& name);
 
-  // What waits to be planned, and what is being planned.
-  WorkerPool::Load load() const { return pool_.load(); }
+  // Stops a planning under way, whoever waits for it. Once this returns, nothing is going to be kept of it. False if
+  // there is none, or it came to its end: then the keeper has the plan, unless it failed.
+  bool cancel(const std::string& name);
+
+  Scheduler::Load load() const { return scheduler_.load(); }
 
  private:
-  PlanPointer plan(PlanRequest request);
+  friend class PlanWatch;
+  friend class Ticket;
 
-  OnPlanned on_planned_;
-  PlanStore store_;
+  struct UnderWay {
+    std::shared_ptr<PlanWork> work;
+    JobId job = 0;
+    std::map<Client, std::size_t> tickets;
+    bool ending = false;  // it is made, or has failed, and the keeper is told
+  };
+
+  std::size_t ahead(JobId job) const { return scheduler_.ahead(job); }
+  void drop(const PlanWork& work, const Client& client);
+  bool go_on(PlanWork& work, const std::stop_token& stop);
+  bool begin_to_end(const PlanWork& work);
+  std::exception_ptr tell_keeper(const PlanWork& work, const std::exception_ptr& failure);
+  UnderWay* find(const PlanWork& work);
+
+  PlanKeeper& keeper_;
+  const OnPlanned on_planned_;
   std::mutex mutex_;
-  std::unordered_map<std::string, std::shared_future<PlanPointer>> under_way_;
-  WorkerPool pool_;  // last, so that its threads are gone before anything they use
+  std::condition_variable ended_;
+  std::unordered_map<std::string, UnderWay> under_way_;
+  Scheduler scheduler_;  // last, so that its threads are gone before anything they use
 };
 
 }  // namespace kcs::jobs

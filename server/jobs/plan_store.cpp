@@ -29,7 +29,7 @@ PlanPointer PlanStore::find(const std::string& name) {
   return found->second->plan;
 }
 
-void PlanStore::keep(PlanPointer plan) {
+void PlanStore::keep(const PlanPointer& plan) {
   const std::uint64_t bytes = size_of(*plan);
   if (bytes > max_bytes_) {
     throw CapExceeded("stored_bytes", max_bytes_,
@@ -41,8 +41,8 @@ void PlanStore::keep(PlanPointer plan) {
   while (!entries_.empty() && (entries_.size() >= max_plans_ || bytes_ + bytes > max_bytes_)) {
     forgotten.push_back(remove(std::prev(entries_.end())));
   }
-  entries_.push_front({std::move(plan), bytes});
-  by_name_[entries_.front().plan->name] = entries_.begin();
+  entries_.push_front({plan, bytes});
+  by_name_[plan->name] = entries_.begin();
   bytes_ += bytes;
 }
 

@@ -8,21 +8,22 @@
 #include <string>
 #include <unordered_map>
 
+#include "server/jobs/plan_keeper.h"
 #include "server/jobs/plan_request.h"
 
 namespace kcs::jobs {
 
 // Plans by their names, in memory, within a bound on their number and on their size. Where a new one needs room, the
 // one that was not used for longest goes: its request makes it again. Safe for use by many threads at once.
-class PlanStore {
+class PlanStore final : public PlanKeeper {
  public:
   PlanStore(std::size_t max_plans, std::uint64_t max_bytes);
 
   // The plan, which counts as used now; null if it is not kept.
-  PlanPointer find(const std::string& name);
+  PlanPointer find(const std::string& name) override;
 
   // Keeps `plan`. Throws CapExceeded if it is larger than the whole store.
-  void keep(PlanPointer plan);
+  void keep(const PlanPointer& plan) override;
 
   // Forgets the plan; whoever holds it keeps it alive. False if it is not kept.
   bool forget(const std::string& name);

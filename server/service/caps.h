@@ -17,8 +17,12 @@ struct Caps {
   // Plans kept for GetPlan and the streams. Beyond either number the plan that was not used for longest is forgotten.
   std::uint64_t stored_plans = 1'000;
   std::uint64_t stored_bytes = std::uint64_t{2} << 30;
-  // Requests that wait for a planning thread.
+  // Requests that wait for a planning thread, and those of one client among them. Each holds its whole tool path, and
+  // what was planned of it in the turns that it had.
   std::uint64_t queue_length = 128;
+  std::uint64_t client_waiting = 64;
+  // Threads that plan for one client at the same time; 0: all. Clients take turns anyhow.
+  std::uint64_t client_running = 0;
   // Calls of CreatePlan under way at the same time; each may hold a whole tool path.
   std::uint64_t uploads = 128;
   // Calls of StreamSetpoints and DescribeCorners under way at the same time; each holds a thread and one batch on its

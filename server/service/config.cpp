@@ -22,6 +22,8 @@ Keys cap_keys(Caps& caps) {
           {"stored_plans", whole(caps.stored_plans, 1, kMany)},
           {"stored_bytes", whole(caps.stored_bytes, 1, kMany)},
           {"queue_length", whole(caps.queue_length, 0, kMany)},
+          {"client_waiting", whole(caps.client_waiting, 0, kMany)},
+          {"client_running", whole(caps.client_running, 0, kMany)},
           {"uploads", whole(caps.uploads, 1, kMostCalls)},
           {"streams", whole(caps.streams, 1, kMostCalls)},
           {"live_streams", whole(caps.live_streams, 1, kMostCalls)}};

@@ -141,4 +141,19 @@ jobs::RequestOptions decode_options(const v1::PlanOptions& options) {
   return decoded;
 }
 
+jobs::Priority decode_priority(v1::Priority priority) {
+  switch (priority) {
+    case v1::PRIORITY_BATCH:
+      return jobs::Priority::kBatch;
+    case v1::PRIORITY_UNSPECIFIED:
+    case v1::PRIORITY_NORMAL:
+      return jobs::Priority::kNormal;
+    case v1::PRIORITY_INTERACTIVE:
+      return jobs::Priority::kInteractive;
+    default:
+      refuse("priority",
+             fmt::format("{} is none of its values: use one that the contract names", static_cast<int>(priority)));
+  }
+}
+
 }  // namespace kcs::service

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <future>
 #include <memory>
 #include <utility>
 
@@ -24,7 +23,15 @@ using security::Identity;
 namespace {
 
 // How soon a client that gave up is noticed while its plan is made.
-constexpr std::chrono::milliseconds kCancellationCheck{50};
+constexpr std::chrono::milliseconds kCancellationCheck{10};
+
+// The caller, or where nobody is told apart the address that the call comes from, without its port:
+// "ipv4:192.0.2.7:51234" is a client on 192.0.2.7.
+jobs::Client client_of(const Identity& caller, const grpc::ServerContext& context) {
+  if (!caller.owner.empty()) return caller.owner;
+  const std::string peer = context.peer();
+  return peer.starts_with("ip") ? peer.substr(0, peer.rfind(':')) : peer;
+}
 
 template <typename Request>
 Request parse(grpc::ByteBuffer& bytes) {
@@ -49,9 +56,10 @@ class Running {
 
 }  // namespace
 
-PlanningService::PlanningService(jobs::PlanDesk& desk, const Caps& caps, const AccessControl& access,
-                                 const Observation& observation)
+PlanningService::PlanningService(jobs::PlanDesk& desk, jobs::PlanStore& plans, const Caps& caps,
+                                 const AccessControl& access, const Observation& observation)
     : desk_(desk),
+      plans_(plans),
       caps_(caps),
       access_(access),
       observation_(observation),
@@ -93,12 +101,12 @@ grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadRe
     jobs::PlanRequest request = upload.finish();
     request.call = call.request_id();
     call.note("plan", request.name);
-    const std::shared_future<jobs::PlanPointer> planned = desk_.submit(std::move(request));
-    while (planned.wait_for(kCancellationCheck) != std::future_status::ready) {
+    const jobs::Ticket ticket = desk_.submit(std::move(request), client_of(caller, *context), upload.priority());
+    while (!ticket.wait(kCancellationCheck)) {
       if (context->IsCancelled()) return grpc::Status::CANCELLED;
     }
-    owners_.add(planned.get(), caller.owner);
-    encode_plan(*planned.get(), *plan);
+    owners_.add(ticket.plan(), caller.owner);
+    encode_plan(*ticket.plan(), *plan);
     return grpc::Status::OK;
   });
 }
@@ -134,7 +142,7 @@ grpc::Status PlanningService::DeletePlan(grpc::ServerContext* context, const v1:
   return answer("DeletePlan", *context, [&](CallRecord& call, const Identity& caller) {
     call.note("plan", request->name());
     owned_plan(caller, request->name());
-    if (owners_.remove(caller, request->name())) desk_.store().forget(request->name());
+    if (owners_.remove(caller, request->name())) plans_.forget(request->name());
     return grpc::Status::OK;
   });
 }
@@ -178,7 +186,7 @@ void PlanningService::count_setpoints(const v1::SetpointBatch& batch) const {
 
 jobs::PlanPointer PlanningService::owned_plan(const Identity& caller, const std::string& name) {
   if (name.empty()) refuse("name", "is missing: give the name of a plan");
-  jobs::PlanPointer kept = owners_.sees(caller, name) ? desk_.store().find(name) : nullptr;
+  jobs::PlanPointer kept = owners_.sees(caller, name) ? plans_.find(name) : nullptr;
   if (!kept) throw NotKept();
   return kept;
 }

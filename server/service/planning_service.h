@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "server/jobs/plan_desk.h"
+#include "server/jobs/plan_store.h"
 #include "server/service/access_control.h"
 #include "server/service/caps.h"
 #include "server/service/gate.h"
@@ -20,8 +21,9 @@ namespace kcs::service {
 
 class PlanningService final : public v1::PlanningService::Service {
  public:
-  // Keeps references to all.
-  PlanningService(jobs::PlanDesk& desk, const Caps& caps, const AccessControl& access, const Observation& observation);
+  // Keeps references to all of them. plans: where the desk keeps its plans.
+  PlanningService(jobs::PlanDesk& desk, jobs::PlanStore& plans, const Caps& caps, const AccessControl& access,
+                  const Observation& observation);
 
   // Refuses every call from now on; those that run go on.
   void close() { closed_ = true; }
@@ -60,6 +62,7 @@ class PlanningService final : public v1::PlanningService::Service {
   jobs::PlanPointer owned_plan(const security::Identity& caller, const std::string& name);
 
   jobs::PlanDesk& desk_;
+  jobs::PlanStore& plans_;
   const Caps& caps_;
   const AccessControl& access_;
   const Observation& observation_;

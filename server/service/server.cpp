@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "server/jobs/plan_desk.h"
+#include "server/jobs/plan_store.h"
 #include "server/observe/http_endpoint.h"
 #include "server/service/access_control.h"
 #include "server/service/listen_address.h"
@@ -41,6 +42,13 @@ std::size_t thread_count(std::size_t wanted) {
 std::shared_ptr<grpc::ServerCredentials> make_credentials(const SecuritySettings& settings) {
   if (settings.tls.certificate.empty()) return grpc::InsecureServerCredentials();
   return std::make_shared<TlsCredentials>(settings.tls);
+}
+
+jobs::Scheduler::Limits scheduling(const Caps& caps, std::size_t threads) {
+  return {.threads = threads,
+          .queue_length = caps.queue_length,
+          .client_waiting = caps.client_waiting,
+          .client_running = caps.client_running > 0 ? caps.client_running : threads};
 }
 
 grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const ServerOptions& options) {
@@ -74,10 +82,11 @@ struct Server::Parts {
       : caps(options.caps),
         observation{.log = options.log},
         http(make_http(options.observe.http_listen, observation)),
-        desk({thread_count(options.planning_threads), caps.queue_length, caps.stored_plans, caps.stored_bytes},
+        plans(caps.stored_plans, caps.stored_bytes),
+        desk(plans, scheduling(caps, thread_count(options.planning_threads)),
              [this](const jobs::PlanDesk::Planned& planned) { report(observation, planned); }),
         access(options.security),
-        service(desk, caps, access, observation),
+        service(desk, plans, caps, access, observation),
         credentials(make_credentials(options.security)) {
     add_readings(observation.registry, desk);
   }
@@ -88,6 +97,7 @@ struct Server::Parts {
   const Caps caps;
   Observation observation;
   std::unique_ptr<observe::HttpEndpoint> http;  // null if nobody asked for it
+  jobs::PlanStore plans;
   jobs::PlanDesk desk;
   AccessControl access;
   PlanningService service;

@@ -5,12 +5,12 @@
 #include <array>
 #include <chrono>
 #include <exception>
-#include <future>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "server/jobs/cap_exceeded.h"
+#include "server/jobs/withdrawn.h"
 #include "server/planning/invalid_input.h"
 #include "server/service/printable.h"
 #include "server/service/status_details.h"
@@ -89,8 +89,8 @@ CallEnd end_by_current_exception() {
     return {stopping()};
   } catch (const Cancelled&) {
     return {failure(grpc::StatusCode::CANCELLED, "the client gave up")};
-  } catch (const std::future_error&) {
-    return {stopping()};
+  } catch (const jobs::Withdrawn& withdrawn) {
+    return {failure(grpc::StatusCode::ABORTED, withdrawn.what())};
   } catch (const std::bad_alloc&) {
     return {with_retry(failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory; try again later"),
                        kMemoryRetry)};

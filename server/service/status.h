@@ -21,7 +21,7 @@ struct CallEnd {
 //   Forbidden                PERMISSION_DENIED
 //   Stopping                 UNAVAILABLE with a google.rpc.RetryInfo
 //   Cancelled                CANCELLED
-//   std::future_error        UNAVAILABLE with a google.rpc.RetryInfo: the server stopped before the plan was made
+//   jobs::Withdrawn          ABORTED: the plan was deleted before it was made
 //   std::bad_alloc           RESOURCE_EXHAUSTED with a google.rpc.RetryInfo
 //   anything else            INTERNAL with the reason: a defect of kcs
 CallEnd end_by_current_exception();

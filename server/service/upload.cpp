@@ -7,6 +7,10 @@
 namespace kcs::service {
 
 void Upload::add(const v1::CreatePlanRequest& message) {
+  if (message.priority() != v1::PRIORITY_UNSPECIFIED) {
+    if (incoming_) refuse("priority", "came late: send it once, beside the options");
+    priority_ = decode_priority(message.priority());
+  }
   add_message(message, incoming_, [this](const v1::PlanOptions& options) { begin(options); });
 }
 

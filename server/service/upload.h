@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "server/jobs/fair_queue.h"
 #include "server/jobs/plan_request.h"
 #include "server/service/caps.h"
 #include "server/service/incoming_path.h"
@@ -26,12 +27,15 @@ class Upload {
   // After the last message.
   jobs::PlanRequest finish();
 
+  jobs::Priority priority() const { return priority_; }
+
  private:
   void begin(const v1::PlanOptions& options);
 
   const Caps& caps_;
   std::optional<IncomingPath> incoming_;  // once the options came
   jobs::PlanRequest request_;
+  jobs::Priority priority_ = jobs::Priority::kNormal;
 };
 
 }  // namespace kcs::service
