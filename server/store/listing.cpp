@@ -15,8 +15,9 @@ namespace {
 // What the rows of a page must meet, as SQL and its parameters.
 class Conditions {
  public:
-  Conditions(const std::string& owner, const Filter& filter, const std::optional<PageEnd>& after) {
-    require("o.owner = :owner", "owner", owner);
+  Conditions(const Whose& whose, const Filter& filter, const std::optional<PageEnd>& after) {
+    add(condition_of(whose));
+    if (whose) texts_.emplace_back("owner", *whose);
     if (filter.machine_name) require("p.machine_name = :machine_name", "machine_name", *filter.machine_name);
     if (filter.state) require("p.state = :state", "state", static_cast<long long>(*filter.state));
     if (filter.created_from) require("o.create_time >= :created_from", "created_from", count(*filter.created_from));
@@ -72,11 +73,11 @@ class Conditions {
 
 }  // namespace
 
-Page list_plans(Connections& connections, const std::string& planner, const std::string& owner, const Filter& filter,
+Page list_plans(Connections& connections, const std::string& planner, const Whose& whose, const Filter& filter,
                 std::size_t page_size, const std::string& page_token) {
   std::optional<PageEnd> after;
-  if (!page_token.empty()) after = parse_page_token(page_token, owner, filter);
-  const Conditions conditions(owner, filter, after);
+  if (!page_token.empty()) after = parse_page_token(page_token, whose, filter);
+  const Conditions conditions(whose, filter, after);
   const Dialect& dialect = connections.dialect();
   Page page;
   page.records = connections.read([&](soci::session& session) {
@@ -86,18 +87,9 @@ Page list_plans(Connections& connections, const std::string& planner, const std:
     statement.exchange(soci::use(planner, "planner"));
     conditions.bind(statement);
     statement.exchange(soci::use(limit, "limit"));
-    statement.exchange(soci::into(row.name));
-    statement.exchange(soci::into(row.state));
-    statement.exchange(soci::into(row.create_time));
-    statement.exchange(soci::into(row.outcome));
-    statement.exchange(soci::into(row.to_plan));
-    statement.alloc();
-    statement.prepare(fmt::format("select {} from owners o join plans p on p.name = o.name where {} "
-                                  "order by o.create_time desc, o.name desc limit :limit",
-                                  record_columns(dialect), conditions.sql()),
-                      soci::details::st_one_time_query);
-    statement.define_and_bind();
-    statement.execute();
+    row.receive(statement);
+    run(statement, fmt::format("select {} from {} where {} order by o.create_time desc, o.name desc limit :limit",
+                               record_columns(dialect), record_tables(whose), conditions.sql()));
     std::vector<Record> records;
     while (statement.fetch()) records.push_back(row.record(dialect));
     return records;
@@ -105,7 +97,7 @@ Page list_plans(Connections& connections, const std::string& planner, const std:
   if (page.records.size() > page_size) {
     page.records.resize(page_size);
     const Record& last = page.records.back();
-    page.next_page_token = kcs::store::page_token({.create_time = last.create_time, .name = last.name}, owner, filter);
+    page.next_page_token = kcs::store::page_token({.create_time = last.create_time, .name = last.name}, whose, filter);
   }
   return page;
 }

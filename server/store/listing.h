@@ -10,7 +10,7 @@
 namespace kcs::store {
 
 // See Store::list(). `planner`: the server that asks.
-Page list_plans(Connections& connections, const std::string& planner, const std::string& owner, const Filter& filter,
+Page list_plans(Connections& connections, const std::string& planner, const Whose& whose, const Filter& filter,
                 std::size_t page_size, const std::string& page_token);
 
 }  // namespace kcs::store

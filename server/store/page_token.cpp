@@ -27,7 +27,8 @@ std::optional<std::int64_t> count_of(const std::optional<Time>& time) {
 }
 
 // Owner and machine name come last, with a length, so that no two lists have the same description.
-std::string digest(std::string_view position, const std::string& owner, const Filter& filter) {
+std::string digest(std::string_view position, const Whose& whose, const Filter& filter) {
+  const std::string owner = text_of(whose);
   const std::string list =
       fmt::format("{}|{}|{}|{}|{}|{}|{}:{}{}", position,
                   text_of(filter.state ? std::optional(static_cast<int>(*filter.state)) : std::nullopt),
@@ -41,16 +42,16 @@ std::string digest(std::string_view position, const std::string& owner, const Fi
 
 }  // namespace
 
-std::string page_token(const PageEnd& end, const std::string& owner, const Filter& filter) {
+std::string page_token(const PageEnd& end, const Whose& whose, const Filter& filter) {
   const std::string position = fmt::format("{:016x}{}", end.create_time.time_since_epoch().count(), end.name);
-  return digest(position, owner, filter) + position;
+  return digest(position, whose, filter) + position;
 }
 
-PageEnd parse_page_token(const std::string& token, const std::string& owner, const Filter& filter) {
+PageEnd parse_page_token(const std::string& token, const Whose& whose, const Filter& filter) {
   const auto position = std::string_view(token).substr(std::min(token.size(), kDigestDigits));
   std::int64_t count = 0;
   const bool ours =
-      token.size() > kDigestDigits + kTimeDigits && token == digest(position, owner, filter) + std::string(position);
+      token.size() > kDigestDigits + kTimeDigits && token == digest(position, whose, filter) + std::string(position);
   if (!ours || std::from_chars(position.data(), position.data() + kTimeDigits, count, 16).ec != std::errc()) {
     throw InvalidPageToken(
         "is not the next_page_token of an answer to the same filter: leave it empty to start again from the first "

@@ -14,9 +14,9 @@ struct PageEnd {
 };
 
 // A word of letters, digits and slashes that says where a page ended and, in a digest, whose list it was a page of.
-std::string page_token(const PageEnd& end, const std::string& owner, const Filter& filter);
+std::string page_token(const PageEnd& end, const Whose& whose, const Filter& filter);
 
-// Throws InvalidPageToken unless page_token() made `token` for the same owner and filter.
-PageEnd parse_page_token(const std::string& token, const std::string& owner, const Filter& filter);
+// Throws InvalidPageToken unless page_token() made `token` for the same list and filter.
+PageEnd parse_page_token(const std::string& token, const Whose& whose, const Filter& filter);
 
 }  // namespace kcs::store

@@ -13,10 +13,32 @@ bool exists(soci::session& session, const std::string& name) {
 
 }  // namespace
 
+std::string record_tables(const Whose& whose) {
+  return fmt::format("{} o join plans p on p.name = o.name",
+                     whose ? "owners" : "(select name, min(create_time) create_time from owners group by name)");
+}
+
+std::string condition_of(const Whose& whose) { return whose ? "o.owner = :owner" : "1 = 1"; }
+
 std::string record_columns(const Dialect& dialect) {
   return fmt::format(
       "p.name, p.state, o.create_time, {}, case when p.state = 0 and p.planner = :planner then 1 else 0 end",
       dialect.string_of_column("p.outcome"));
+}
+
+void RecordRow::receive(soci::statement& statement) {
+  statement.exchange(soci::into(name));
+  statement.exchange(soci::into(state));
+  statement.exchange(soci::into(create_time));
+  statement.exchange(soci::into(outcome));
+  statement.exchange(soci::into(to_plan));
+}
+
+void run(soci::statement& statement, const std::string& sql) {
+  statement.alloc();
+  statement.prepare(sql, soci::details::st_one_time_query);
+  statement.define_and_bind();
+  statement.execute();
 }
 
 Record RecordRow::record(const Dialect& dialect) const {
@@ -28,14 +50,16 @@ Record RecordRow::record(const Dialect& dialect) const {
 }
 
 std::optional<Record> select_plan(soci::session& session, const Dialect& dialect, const std::string& planner,
-                                  const std::string& owner, const std::string& name) {
+                                  const Whose& whose, const std::string& name) {
   RecordRow row;
-  session << fmt::format(
-      "select {} from owners o join plans p on p.name = o.name where o.owner = :owner and o.name = :name",
-      record_columns(dialect)),
-      soci::use(planner, "planner"), soci::use(owner, "owner"), soci::use(name, "name"), soci::into(row.name),
-      soci::into(row.state), soci::into(row.create_time), soci::into(row.outcome), soci::into(row.to_plan);
-  if (!session.got_data()) return std::nullopt;
+  soci::statement statement(session);
+  statement.exchange(soci::use(planner, "planner"));
+  if (whose) statement.exchange(soci::use(*whose, "owner"));
+  statement.exchange(soci::use(name, "name"));
+  row.receive(statement);
+  run(statement, fmt::format("select {} from {} where {} and o.name = :name", record_columns(dialect),
+                             record_tables(whose), condition_of(whose)));
+  if (!statement.fetch()) return std::nullopt;
   return row.record(dialect);
 }
 
@@ -79,7 +103,13 @@ void settle_plan(soci::session& session, const Dialect& dialect, const std::stri
       soci::use(outcome_bytes, "outcome_bytes"), soci::use(name, "name");
 }
 
-Removal delete_owner(soci::session& session, const std::string& owner, const std::string& name) {
+Removal delete_owner(soci::session& session, const Whose& whose, const std::string& name) {
+  if (!whose) {
+    if (!exists(session, name)) return Removal::kNotFound;
+    delete_plan(session, name);
+    return Removal::kGone;
+  }
+  const std::string& owner = *whose;
   int his = 0;
   int all = 0;
   session << "select count(*) from owners where owner = :owner and name = :name", soci::use(owner, "owner"),

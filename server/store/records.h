@@ -11,6 +11,9 @@ namespace kcs::store {
 
 using Time = std::chrono::sys_time<std::chrono::microseconds>;
 
+// Whose plans are meant: one owner's; none: everybody's.
+using Whose = std::optional<std::string>;
+
 // A request to be kept. All texts of the store are UTF-8 without zero characters; bytes may be anything.
 struct Request {
   std::string name;  // of the plan; the same name always comes with the same bytes and the same machine name
@@ -30,7 +33,7 @@ enum class State {
   kRefused,
 };
 
-// A plan as one of its owners sees it.
+// A plan as one of its owners sees it, or as its first owner does where everybody's are meant.
 struct Record {
   std::string name;
   State state = State::kAccepted;

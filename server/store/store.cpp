@@ -99,10 +99,10 @@ void Store::refuse(const std::string& name, std::string_view status) {
   parts_->settle(name, State::kRefused, status, std::nullopt);
 }
 
-std::optional<Record> Store::find(const std::string& owner, const std::string& name) {
+std::optional<Record> Store::find(const Whose& whose, const std::string& name) {
   if (!can_be_kept(name)) return std::nullopt;
   std::optional<Record> found = parts_->connections.read([&](soci::session& session) {
-    return select_plan(session, parts_->connections.dialect(), parts_->leases.planner(), owner, name);
+    return select_plan(session, parts_->connections.dialect(), parts_->leases.planner(), whose, name);
   });
   if (found) parts_->note_use(name);
   return found;
@@ -113,14 +113,14 @@ std::optional<std::string> Store::request(const std::string& name) {
   return read_request(parts_->connections, name);
 }
 
-Page Store::list(const std::string& owner, const Filter& filter, std::size_t page_size, const std::string& page_token) {
+Page Store::list(const Whose& whose, const Filter& filter, std::size_t page_size, const std::string& page_token) {
   if (filter.machine_name && !can_be_kept(*filter.machine_name)) return {};
-  return list_plans(parts_->connections, parts_->leases.planner(), owner, filter, page_size, page_token);
+  return list_plans(parts_->connections, parts_->leases.planner(), whose, filter, page_size, page_token);
 }
 
-Removal Store::remove(const std::string& owner, const std::string& name) {
+Removal Store::remove(const Whose& whose, const std::string& name) {
   if (!can_be_kept(name)) return Removal::kNotFound;
-  return parts_->connections.write(name, [&](soci::session& session) { return delete_owner(session, owner, name); });
+  return parts_->connections.write(name, [&](soci::session& session) { return delete_owner(session, whose, name); });
 }
 
 std::vector<std::string> Store::claim(std::size_t most) { return parts_->leases.claim(parts_->connections, most); }

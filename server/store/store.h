@@ -15,9 +15,10 @@
 namespace kcs::store {
 
 // Keeps requests under their names, once each, and who owns them. An owner sees and removes only what is his; the data
-// goes with its last owner. What a call has changed when it returns is on the disk of the database: a crash or a power
-// failure does not lose it, and what is half done is never seen (PostgreSQL: as far as its own settings promise that).
-// Trajectories are not kept here: the request makes them again.
+// goes with its last owner, or for all of them together where everybody's plans are meant. What a call has changed when
+// it returns is on the disk of the database: a crash or a power failure does not lose it, and what is half done is
+// never seen (PostgreSQL: as far as its own settings promise that). Trajectories are not kept here: the request makes
+// them again.
 //
 // Every method may be called by many threads, and by many servers that share a database, at the same moment. Each
 // throws StoreUnavailable if the database is gone, StoreFull if its disk is full (writing only), StoreError otherwise;
@@ -42,16 +43,16 @@ class Store {
   void finish(const std::string& name, const Finished& finished);
   void refuse(const std::string& name, std::string_view status);
 
-  // The plan; none if it is not kept or not this owner's. It counts as used now.
-  std::optional<Record> find(const std::string& owner, const std::string& name);
+  // The plan; none if it is not kept or is somebody else's. It counts as used now.
+  std::optional<Record> find(const Whose& whose, const std::string& name);
   // The bytes of a request, whoever owns it; none if it is not kept.
   std::optional<std::string> request(const std::string& name);
-  // One page of an owner's plans, the latest first: 1 to `page_size` of them, those after the page that gave
+  // One page of these plans, the latest first: 1 to `page_size` of them, those after the page that gave
   // `page_token` (empty: from the first). What is added or removed meanwhile neither repeats nor hides another plan.
-  // Throws InvalidPageToken unless the token comes from a page of the same owner and filter.
-  Page list(const std::string& owner, const Filter& filter, std::size_t page_size, const std::string& page_token);
+  // Throws InvalidPageToken unless the token comes from a page of the same list and filter.
+  Page list(const Whose& whose, const Filter& filter, std::size_t page_size, const std::string& page_token);
 
-  Removal remove(const std::string& owner, const std::string& name);
+  Removal remove(const Whose& whose, const std::string& name);
 
   // The names of what this server has to plan: accepted, without outcome, the earliest first. It says at the same time
   // that this server is alive, and takes over what has lost its server, until it has `most` of them. Call it after the
