@@ -17,12 +17,18 @@ std::string csv_header(std::size_t axes, const std::vector<client::Channel>& cha
   static constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
   static constexpr std::array<std::pair<client::Channel, std::string_view>, 3> kPrefixes = {
       {{client::Channel::kVelocity, "v"}, {client::Channel::kAcceleration, "a"}, {client::Channel::kJerk, "j"}}};
+  const auto has = [&](client::Channel channel) {
+    return std::find(channels.begin(), channels.end(), channel) != channels.end();
+  };
   std::string header = "t";
   for (std::size_t axis = 0; axis < axes; ++axis) header += fmt::format(",{}", kAxes.at(axis));
   for (const auto& [channel, prefix] : kPrefixes) {
-    if (std::find(channels.begin(), channels.end(), channel) == channels.end()) continue;
-    for (std::size_t axis = 0; axis < axes; ++axis) header += fmt::format(",{}{}", prefix, kAxes.at(axis));
+    for (std::size_t axis = 0; has(channel) && axis < axes; ++axis) {
+      header += fmt::format(",{}{}", prefix, kAxes.at(axis));
+    }
   }
+  if (has(client::Channel::kPathPosition)) header += ",path_position";
+  if (has(client::Channel::kSegment)) header += ",segment";
   return header + "\n";
 }
 
@@ -36,6 +42,10 @@ std::string csv_rows(const client::SetpointBatch& batch, double period_s) {
         fmt::format_to(std::back_inserter(rows), ",{:.15g}", column[row]);
       }
     }
+    if (!batch.path_position_mm.empty()) {
+      fmt::format_to(std::back_inserter(rows), ",{:.15g}", batch.path_position_mm[row]);
+    }
+    if (!batch.segment.empty()) fmt::format_to(std::back_inserter(rows), ",{}", batch.segment[row]);
     rows += '\n';
   }
   return rows;

@@ -11,12 +11,12 @@
 
 namespace kcs::cli {
 
-// "t,x,y,z\n", and for each channel asked for its columns: vx,vy,vz, ax,ay,az, jx,jy,jz. Machines with two axes have no
-// z. Always in that order.
+// "t,x,y,z\n", and for each channel asked for its columns: vx,vy,vz, ax,ay,az, jx,jy,jz, path_position, segment.
+// Machines with two axes have no z. Always in that order.
 std::string csv_header(std::size_t axes, const std::vector<client::Channel>& channels);
 
-// One row a setpoint: its time (index × period, s), then the columns of the header (mm, mm/s, mm/s², mm/s³), with 15
-// significant digits.
+// One row a setpoint: its time (index × period, s), then the columns of the header (mm, mm/s, mm/s², mm/s³, mm), with
+// 15 significant digits.
 std::string csv_rows(const client::SetpointBatch& batch, double period_s);
 
 // Writes header and rows of the whole stream; calls `progress` after each batch. Throws client::FileError if `out`

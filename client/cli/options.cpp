@@ -15,8 +15,11 @@ std::string footer() {
   return std::string("Without --server everything is computed inside this process.\n") + client::kExitCodeHelp + ".";
 }
 
-const std::map<std::string, Channel> kChannels = {
-    {"velocity", Channel::kVelocity}, {"acceleration", Channel::kAcceleration}, {"jerk", Channel::kJerk}};
+const std::map<std::string, Channel> kChannels = {{"velocity", Channel::kVelocity},
+                                                  {"acceleration", Channel::kAcceleration},
+                                                  {"jerk", Channel::kJerk},
+                                                  {"path-position", Channel::kPathPosition},
+                                                  {"segment", Channel::kSegment}};
 
 void add_common_options(CLI::App& app, Options& options) {
   app.add_option("FILE", options.file, "G-code program; - reads standard input")->required()->option_text(" ");
@@ -51,7 +54,7 @@ void add_channels(CLI::App& app, Options& options) {
          [&options](const std::vector<std::string>& names) {
            for (const std::string& name : names) options.channels.push_back(kChannels.at(name));
          },
-         "further columns: velocity,acceleration,jerk")
+         "further columns: velocity,acceleration,jerk,\npath-position (mm of the way),segment (from 0)")
       ->delimiter(',')
       ->check(CLI::IsMember(&kChannels))
       ->option_text("LIST");

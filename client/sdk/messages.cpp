@@ -78,6 +78,10 @@ v1::Channel to_message(Channel channel) {
       return v1::CHANNEL_ACCELERATION;
     case Channel::kJerk:
       return v1::CHANNEL_JERK;
+    case Channel::kPathPosition:
+      return v1::CHANNEL_PATH_POSITION;
+    case Channel::kSegment:
+      return v1::CHANNEL_SEGMENT;
   }
   return v1::CHANNEL_UNSPECIFIED;
 }
@@ -253,6 +257,8 @@ void from_message(const v1::SetpointBatch& message, SetpointBatch& batch) {
   copy_columns(message.velocity_mm_s(), batch.velocity_mm_s);
   copy_columns(message.acceleration_mm_s2(), batch.acceleration_mm_s2);
   copy_columns(message.jerk_mm_s3(), batch.jerk_mm_s3);
+  batch.path_position_mm.assign(message.path_position_mm().begin(), message.path_position_mm().end());
+  batch.segment.assign(message.segment().begin(), message.segment().end());
   batch.end_of_path = message.end_of_path();
   batch.setpoint_count = message.setpoint_count();
 }

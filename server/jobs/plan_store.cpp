@@ -12,6 +12,8 @@ namespace {
 std::uint64_t size_of(const KeptPlan& plan) {
   std::uint64_t bytes = sizeof(KeptPlan) + plan.name.capacity() + plan.options.machine_name.capacity();
   bytes += plan.plan.trajectory.bytes();
+  bytes += plan.plan.path.bytes();
+  bytes += plan.plan.milestones.capacity() * sizeof(motion::Milestone);
   bytes += plan.plan.corners.bytes();
   for (const gcode::Notice& notice : plan.notices) bytes += sizeof(gcode::Notice) + notice.text.capacity();
   return bytes;

@@ -26,7 +26,7 @@ Leg leg_on(const motion::StraightRun& run, const AxisLimits& limits, const Segme
 
 }  // namespace
 
-void LegQueue::add(const Segment& segment) {
+bool LegQueue::add(const Segment& segment) {
   if ((segment.end - end_).norm() < kNoLength) {  // nothing to move, but perhaps to wait for
     if (legs_.empty()) {
       initial_dwell_ += segment.dwell;
@@ -34,7 +34,7 @@ void LegQueue::add(const Segment& segment) {
       joints_.back().stop |= segment.stop || segment.dwell > 0;
       joints_.back().dwell += segment.dwell;
     }
-    return;
+    return false;
   }
   const std::uint32_t index = segments();
   const bool same_leg = run_ && !joints_.back().stop && last_.feed == segment.feed &&
@@ -50,6 +50,7 @@ void LegQueue::add(const Segment& segment) {
   ends_.push_back(segment.end);
   end_ = segment.end;
   last_ = segment;
+  return true;
 }
 
 LegPath LegQueue::first(std::size_t count) const {

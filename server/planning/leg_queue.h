@@ -20,8 +20,8 @@ class LegQueue {
   // start: of the path, mm.
   LegQueue(const Vector& start, const AxisLimits& limits) : start_(start), end_(start), limits_(limits) {}
 
-  // The next segment. Its numbers must be valid (validation.h).
-  void add(const Segment& segment);
+  // The next segment. Its numbers must be valid (validation.h). Returns whether it moves.
+  bool add(const Segment& segment);
 
   // Nothing more comes: the last leg is complete.
   void finish() { finished_ = true; }

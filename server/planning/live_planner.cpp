@@ -37,7 +37,11 @@ LivePlanner::LivePlanner(const PathEnds& ends, const PlanOptions& options, PlanR
 void LivePlanner::add(const Segment& segment) {
   validate(segment, segments_++, options_.limits.axes);
   summary_.dwell_time += segment.dwell;
-  legs_.add(segment);
+  const Vector from = legs_.end();
+  if (legs_.add(segment)) {
+    summary_.path_length += (segment.end - from).norm();
+    receiver_.take(segment.end);
+  }
   if (horizon_.in_sight(legs_)) settle_next();
 }
 
@@ -215,10 +219,7 @@ void LivePlanner::go_on(const Section::Cut& from, const Section::Cut& to, std::s
   summary_.time_at_feed += last_->record(from, to, log_);
   auto [first_leg, entry] = last_->rest_from(to);
   const std::size_t done = first_leg - dropped;
-  for (std::size_t i = 0; i < done; ++i) {
-    summary_.path_length += legs_.leg(i).length;
-    end_direction_ = legs_.leg(i).direction;
-  }
+  if (done > 0) end_direction_ = legs_.leg(done - 1).direction;
   legs_.drop(done);
   shown_ -= done;
   horizon_ = Horizon(options_.limits);

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
+#include "server/motion/path.h"
+#include "server/motion/progress.h"
 #include "server/motion/trajectory.h"
 #include "server/planning/corner_list.h"
 
@@ -31,6 +34,9 @@ struct Summary {
 struct Plan {
   Vector start = Vector::Zero();  // mm
   motion::Trajectory trajectory;
+  // The path that it follows, segments of no length left out, and how far along it the motion is when.
+  motion::Path path;
+  std::vector<motion::Milestone> milestones;
   CornerList corners;  // in the order of the path
   Summary summary;
 };

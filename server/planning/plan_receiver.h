@@ -3,6 +3,7 @@
 
 #include "server/motion/phase.h"
 #include "server/planning/corner.h"
+#include "server/planning/toolpath.h"
 
 namespace kcs::planning {
 
@@ -10,6 +11,8 @@ namespace kcs::planning {
 class PlanReceiver {
  public:
   virtual ~PlanReceiver() = default;
+  // The end of the next segment that moves, mm: before the phases that follow it.
+  virtual void take(const Vector& segment_end) = 0;
   virtual void take(const motion::Phase& phase) = 0;
   virtual void take(const Corner& corner) = 0;
 };

@@ -19,7 +19,7 @@ const Toolpath& validated(const Toolpath& path, const PlanOptions& options) {
 Planner::Planner(const Toolpath& path, const PlanOptions& options)
     : path_(validated(path, options)),
       stop_(options.stop),
-      plan_{.start = path.start},
+      plan_{.start = path.start, .path = motion::Path(path.start)},
       planner_(path, options, *this) {}
 
 bool Planner::go_on() {
@@ -34,10 +34,13 @@ bool Planner::go_on() {
   return false;
 }
 
+void Planner::take(const Vector& segment_end) { plan_.path.add(segment_end); }
+
 // What comes before the segments of a phase is planned; segments of no length, which phases do not count, are made up
 // for at the end.
 void Planner::take(const motion::Phase& phase) {
   plan_.trajectory.append(phase);
+  if (const auto milestone = progress_.follow(phase)) plan_.milestones.push_back(*milestone);
   const std::size_t planned = phase.segments.first;
   segments_planned_.store(std::max(planned, segments_planned()), std::memory_order_relaxed);
 }

@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <utility>
 
+#include "server/motion/progress.h"
 #include "server/planning/live_planner.h"
 #include "server/planning/options.h"
 #include "server/planning/plan.h"
@@ -33,12 +34,14 @@ class Planner final : PlanReceiver {
   Plan take_plan() { return std::move(plan_); }
 
  private:
+  void take(const Vector& segment_end) override;
   void take(const motion::Phase& phase) override;
   void take(const Corner& corner) override;
 
   const Toolpath& path_;
   std::stop_token stop_;
   Plan plan_;
+  motion::Progress progress_{plan_.path};
   LivePlanner planner_;
   std::size_t next_ = 0;  // segment
   std::atomic<std::size_t> segments_planned_ = 0;

@@ -27,6 +27,7 @@ void LiveCall::begin(const v1::PlanOptions& options, const v1::LiveOutput& outpu
 void LiveCall::plan(const planning::Segment& segment) {
   if (!planner_) {
     const jobs::RequestOptions& options = incoming_->options();
+    setpoints_->begin(incoming_->start());
     planner_.emplace(options.ends(incoming_->start()), options.planning, *this);
   }
   planner_->add(segment);
@@ -53,6 +54,8 @@ void LiveCall::flush() {
   setpoints_->flush();
   if (corners_) corners_->flush();
 }
+
+void LiveCall::take(const planning::Vector& segment_end) { setpoints_->add(segment_end); }
 
 void LiveCall::take(const motion::Phase& phase) {
   ++phases_;

@@ -22,12 +22,21 @@ LiveSetpoints::LiveSetpoints(const v1::LiveOutput& output, std::size_t axes, Sen
       sampler_(period_),
       send_(std::move(send)) {}
 
+void LiveSetpoints::begin(const motion::Vector& start) {
+  if (columns_.has_places()) places_.emplace(start, period_);
+}
+
+void LiveSetpoints::add(const motion::Vector& segment_end) {
+  if (places_) places_->add(segment_end);
+}
+
 void LiveSetpoints::add(const motion::Phase& phase) {
   if (phase.end_time() / period_ > kMostSetpoints) {
     refuse("output.period_s",
            fmt::format("cuts a motion of {} s into too many setpoints: give a longer one", phase.end_time()));
   }
   sampler_.add(phase);
+  if (places_) places_->add(phase);
   put_settled();
 }
 
@@ -51,7 +60,9 @@ void LiveSetpoints::flush() {
 void LiveSetpoints::put_settled() {
   while (const auto setpoint = sampler_.next()) {
     if (size_ == 0) columns_.begin(*response_.mutable_setpoints(), columns_.batch_size());
-    columns_.set(size_++, *setpoint);
+    columns_.set(size_, *setpoint);
+    if (places_) columns_.set(size_, sampler_.ended() ? places_->end() : places_->next());
+    ++size_;
     if (size_ == columns_.batch_size()) flush();
   }
 }

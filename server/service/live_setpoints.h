@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include "server/motion/live_places.h"
 #include "server/motion/live_sampler.h"
 #include "server/service/setpoint_columns.h"
 
@@ -21,6 +23,10 @@ class LiveSetpoints {
   // Throws planning::InvalidInput if `output` cannot be served.
   LiveSetpoints(const v1::LiveOutput& output, std::size_t axes, SendLive send);
 
+  // Where the path starts, mm: before all of the following.
+  void begin(const motion::Vector& start);
+  // The end of the next segment of the path: before the phases that follow it.
+  void add(const motion::Vector& segment_end);
   // The next phase of the motion. Throws planning::InvalidInput where the setpoints become too many.
   void add(const motion::Phase& phase);
   // Sends what is there.
@@ -34,6 +40,7 @@ class LiveSetpoints {
   SetpointColumns columns_;
   double period_;
   motion::LiveSampler sampler_;
+  std::optional<motion::LivePlaces> places_;  // if they are wanted
   SendLive send_;
   v1::PlanLiveResponse response_;  // its batch is kept for its memory
   std::uint64_t size_ = 0;         // of the batch

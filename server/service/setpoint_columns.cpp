@@ -7,20 +7,30 @@ namespace {
 
 using Columns = google::protobuf::RepeatedPtrField<v1::Column>;
 
+template <typename Number>
+Number* resized(google::protobuf::RepeatedField<Number>& column, int size) {
+  column.Resize(size, 0);
+  return column.mutable_data();
+}
+
 // The numbers of `axes` columns of `size` entries each.
 std::array<double*, 3> resized(Columns& columns, std::size_t axes, int size) {
   std::array<double*, 3> numbers{};
   for (std::size_t axis = 0; axis < axes; ++axis) {
     const int column = static_cast<int>(axis);
-    auto& values = *(column < columns.size() ? columns.Mutable(column) : columns.Add())->mutable_values();
-    values.Resize(size, 0);
-    numbers[axis] = values.mutable_data();
+    numbers[axis] =
+        resized(*(column < columns.size() ? columns.Mutable(column) : columns.Add())->mutable_values(), size);
   }
   return numbers;
 }
 
+template <typename Number>
+void truncate(google::protobuf::RepeatedField<Number>& column, int size) {
+  if (column.size() > size) column.Truncate(size);
+}
+
 void truncate(Columns& columns, int size) {
-  for (v1::Column& column : columns) column.mutable_values()->Truncate(size);
+  for (v1::Column& column : columns) truncate(*column.mutable_values(), size);
 }
 
 }  // namespace
@@ -33,6 +43,8 @@ void SetpointColumns::begin(v1::SetpointBatch& batch, std::uint64_t size) {
   velocity_ = columns(batch.mutable_velocity_mm_s(), has_velocity_);
   acceleration_ = columns(batch.mutable_acceleration_mm_s2(), has_acceleration_);
   jerk_ = columns(batch.mutable_jerk_mm_s3(), has_jerk_);
+  if (has_path_position_) path_position_ = resized(*batch.mutable_path_position_mm(), static_cast<int>(size));
+  if (has_segment_) segment_ = resized(*batch.mutable_segment(), static_cast<int>(size));
 }
 
 void SetpointColumns::set(std::uint64_t index, const motion::Setpoint& setpoint) {
@@ -45,11 +57,18 @@ void SetpointColumns::set(std::uint64_t index, const motion::Setpoint& setpoint)
   if (has_jerk_) store(jerk_, setpoint.jerk);
 }
 
+void SetpointColumns::set(std::uint64_t index, const motion::Place& place) {
+  if (has_path_position_) path_position_[index] = place.way;
+  if (has_segment_) segment_[index] = place.segment;
+}
+
 void SetpointColumns::cut(v1::SetpointBatch& batch, std::uint64_t size) {
   for (Columns* columns : {batch.mutable_position_mm(), batch.mutable_velocity_mm_s(),
                            batch.mutable_acceleration_mm_s2(), batch.mutable_jerk_mm_s3()}) {
     truncate(*columns, static_cast<int>(size));
   }
+  truncate(*batch.mutable_path_position_mm(), static_cast<int>(size));
+  truncate(*batch.mutable_segment(), static_cast<int>(size));
 }
 
 void SetpointColumns::check_batch_size(const std::string& parent, Violations& violations) const {
@@ -70,10 +89,17 @@ void SetpointColumns::add_channel(v1::Channel channel, const std::string& parent
     case v1::CHANNEL_JERK:
       has_jerk_ = true;
       break;
+    case v1::CHANNEL_PATH_POSITION:
+      has_path_position_ = true;
+      break;
+    case v1::CHANNEL_SEGMENT:
+      has_segment_ = true;
+      break;
     default:
-      violations.add(
-          fmt::format("{}channels[{}]", parent, index),
-          fmt::format("{} is no channel: give position, velocity, acceleration or jerk", static_cast<int>(channel)));
+      violations.add(fmt::format("{}channels[{}]", parent, index),
+                     fmt::format("{} is no channel: give position, velocity, acceleration, jerk, path position or "
+                                 "segment",
+                                 static_cast<int>(channel)));
   }
 }
 

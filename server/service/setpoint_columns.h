@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "server/motion/path.h"
 #include "server/motion/setpoint.h"
 #include "server/service/violations.h"
 
@@ -33,11 +34,14 @@ class SetpointColumns {
 
   // Setpoints in a batch, at most.
   std::uint64_t batch_size() const { return batch_size_; }
+  // Whether places on the path are wanted.
+  bool has_places() const { return has_path_position_ || has_segment_; }
 
   // Gives `batch` room for `size` setpoints. Giving the same batch again saves allocations.
   void begin(v1::SetpointBatch& batch, std::uint64_t size);
-  // Sets setpoint `index` of the batch.
+  // Sets setpoint `index` of the batch, and the place that belongs to it.
   void set(std::uint64_t index, const motion::Setpoint& setpoint);
+  void set(std::uint64_t index, const motion::Place& place);
   // Leaves the first `size` setpoints in the batch.
   static void cut(v1::SetpointBatch& batch, std::uint64_t size);
 
@@ -52,7 +56,11 @@ class SetpointColumns {
   bool has_velocity_ = false;
   bool has_acceleration_ = false;
   bool has_jerk_ = false;
+  bool has_path_position_ = false;
+  bool has_segment_ = false;
   Numbers position_{}, velocity_{}, acceleration_{}, jerk_{};
+  double* path_position_ = nullptr;
+  std::uint64_t* segment_ = nullptr;
 };
 
 }  // namespace kcs::service

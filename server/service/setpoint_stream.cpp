@@ -37,6 +37,8 @@ SetpointStream::SetpointStream(jobs::PlanPointer plan, const v1::StreamSetpoints
     violations.add("last_index", fmt::format("{} is before first_index = {}", request.last_index(), next_));
   }
   violations.refuse();
+  const planning::Plan& kept = plan_->plan;
+  if (columns_.has_places()) places_.emplace(kept.trajectory, kept.path, kept.milestones, request.period_s());
 }
 
 bool SetpointStream::next(v1::SetpointBatch& batch) {
@@ -44,6 +46,7 @@ bool SetpointStream::next(v1::SetpointBatch& batch) {
   const std::uint64_t size = std::min(columns_.batch_size(), end_ - next_);
   columns_.begin(batch, size);
   for (std::uint64_t i = 0; i < size; ++i) columns_.set(i, sampler_.at(next_ + i));
+  for (std::uint64_t i = 0; places_ && i < size; ++i) columns_.set(i, places_->at(next_ + i));
   batch.set_first_index(next_);
   batch.set_setpoint_count(sampler_.count());
   next_ += size;

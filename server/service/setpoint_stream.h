@@ -4,8 +4,10 @@
 #include <kcs/v1/planning.pb.h>
 
 #include <cstdint>
+#include <optional>
 
 #include "server/jobs/plan_request.h"
+#include "server/motion/place_sampler.h"
 #include "server/motion/sampler.h"
 #include "server/service/setpoint_columns.h"
 
@@ -24,8 +26,9 @@ class SetpointStream {
   jobs::PlanPointer plan_;
   motion::Sampler sampler_;
   SetpointColumns columns_;
-  std::uint64_t next_;     // index of the next setpoint
-  std::uint64_t end_ = 0;  // one past the last one wanted
+  std::optional<motion::PlaceSampler> places_;  // if they are wanted
+  std::uint64_t next_;                          // index of the next setpoint
+  std::uint64_t end_ = 0;                       // one past the last one wanted
 };
 
 }  // namespace kcs::service

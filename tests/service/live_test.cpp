@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/service/live_client.h"
@@ -93,11 +94,23 @@ std::vector<double> random_walk(std::uint64_t seed) {
   return numbers;
 }
 
+// Way and segment of each setpoint.
+std::vector<std::pair<double, std::uint64_t>> places(const std::vector<v1::SetpointBatch>& batches) {
+  std::vector<std::pair<double, std::uint64_t>> result;
+  for (const v1::SetpointBatch& batch : batches) {
+    EXPECT_EQ(batch.path_position_mm_size(), batch.position_mm(0).values_size());
+    EXPECT_EQ(batch.segment_size(), batch.position_mm(0).values_size());
+    for (int i = 0; i < batch.segment_size(); ++i) result.emplace_back(batch.path_position_mm(i), batch.segment(i));
+  }
+  return result;
+}
+
 class Live : public ::testing::Test {
  protected:
   // That the messages give the same as a stored plan of `whole`.
   void expect_same(const Messages& whole, const Messages& pieces, v1::LiveOutput output) {
-    for (const v1::Channel channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK}) {
+    for (const v1::Channel channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK,
+                                      v1::CHANNEL_PATH_POSITION, v1::CHANNEL_SEGMENT}) {
       output.add_channels(channel);
     }
     output.set_corners(true);
@@ -117,6 +130,7 @@ class Live : public ::testing::Test {
         EXPECT_EQ(column(answer.setpoints, axis, channel), column(expected, axis, channel));
       }
     }
+    EXPECT_EQ(places(answer.setpoints), places(expected));
     expect_consecutive(answer.setpoints, output);
     EXPECT_EQ(answer.setpoints.back().setpoint_count(), expected.back().setpoint_count());
     ASSERT_EQ(answer.corners.size(), corners.size());

@@ -1,12 +1,45 @@
 // StreamSetpoints: which setpoints come, and that they are the same whenever they come.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "tests/service/test_server.h"
 
 namespace kcs::service::test {
 namespace {
+
+using Columns = google::protobuf::RepeatedPtrField<v1::Column>;
+
+constexpr v1::Channel kAllChannels[] = {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK,
+                                        v1::CHANNEL_PATH_POSITION, v1::CHANNEL_SEGMENT};
+
+template <typename Numbers>
+void append(const Numbers& from, int skip, Numbers& to) {
+  for (int i = skip; i < from.size(); ++i) to.Add(from[i]);
+}
+
+void append(const Columns& from, int skip, Columns& to) {
+  while (to.size() < from.size()) to.Add();
+  for (int axis = 0; axis < from.size(); ++axis) append(from[axis].values(), skip, *to[axis].mutable_values());
+}
+
+// The numbers of all batches from an index on, as bytes.
+std::string numbers(const std::vector<v1::SetpointBatch>& batches, std::uint64_t first) {
+  v1::SetpointBatch all;
+  for (const v1::SetpointBatch& batch : batches) {
+    const int skip = static_cast<int>(std::max(first, batch.first_index()) - batch.first_index());
+    append(batch.position_mm(), skip, *all.mutable_position_mm());
+    append(batch.velocity_mm_s(), skip, *all.mutable_velocity_mm_s());
+    append(batch.acceleration_mm_s2(), skip, *all.mutable_acceleration_mm_s2());
+    append(batch.jerk_mm_s3(), skip, *all.mutable_jerk_mm_s3());
+    append(batch.path_position_mm(), skip, *all.mutable_path_position_mm());
+    append(batch.segment(), skip, *all.mutable_segment());
+  }
+  return all.SerializeAsString();
+}
 
 class Setpoints : public ::testing::Test {
  protected:
@@ -23,6 +56,11 @@ class Setpoints : public ::testing::Test {
   }
 
   v1::StreamSetpointsRequest every_millisecond() const { return setpoints(plan_.name(), 0.001); }
+  v1::StreamSetpointsRequest with_all_channels() const {
+    auto request = every_millisecond();
+    for (const v1::Channel channel : kAllChannels) request.add_channels(channel);
+    return request;
+  }
 
   TestServer server_;
   v1::Plan plan_;
@@ -61,28 +99,23 @@ TEST_F(Setpoints, BatchesAreConsecutiveAndOfTheSizeAskedFor) {
 }
 
 TEST_F(Setpoints, DoNotDependOnTheBatchSize) {
-  const auto expected = column(stream(every_millisecond()), 1);
+  const std::string expected = numbers(stream(with_all_channels()), 0);
   for (const std::uint32_t size : {1U, 13U, 32768U}) {
-    auto request = every_millisecond();
+    auto request = with_all_channels();
     request.set_batch_size(size);
-    EXPECT_EQ(column(stream(request), 1), expected) << size;
+    EXPECT_TRUE(numbers(stream(request), 0) == expected) << size;
   }
 }
 
-TEST_F(Setpoints, ResumeAnywhereWithTheSameNumbers) {
-  auto request = every_millisecond();
-  request.add_channels(v1::CHANNEL_JERK);
+TEST_F(Setpoints, ResumeAnywhereWithTheSameBytes) {
+  auto request = with_all_channels();
+  request.set_batch_size(50);
   const auto whole = stream(request);
-  const auto position = column(whole, 2);
-  const auto jerk = column(whole, 2, &v1::SetpointBatch::jerk_mm_s3);
-  for (std::size_t first = 0; first < position.size(); first += 17) {
+  for (std::uint64_t first = 0; first < whole.back().setpoint_count(); first += 17) {
     request.set_first_index(first);
     const auto rest = stream(request);
     EXPECT_EQ(rest.front().first_index(), first);
-    EXPECT_EQ(column(rest, 2),
-              std::vector<double>(position.begin() + static_cast<std::ptrdiff_t>(first), position.end()));
-    EXPECT_EQ(column(rest, 2, &v1::SetpointBatch::jerk_mm_s3),
-              std::vector<double>(jerk.begin() + static_cast<std::ptrdiff_t>(first), jerk.end()));
+    EXPECT_TRUE(numbers(rest, first) == numbers(whole, first)) << first;
   }
 }
 
@@ -110,6 +143,8 @@ TEST_F(Setpoints, CarryTheChannelsAskedForAndNoOthers) {
     EXPECT_EQ(batch.acceleration_mm_s2_size(), 0);
     EXPECT_EQ(batch.jerk_mm_s3_size(), 3);
     EXPECT_EQ(batch.jerk_mm_s3(2).values_size(), batch.position_mm(0).values_size());
+    EXPECT_EQ(batch.path_position_mm_size(), 0);
+    EXPECT_EQ(batch.segment_size(), 0);
   }
 }
 
@@ -128,6 +163,23 @@ TEST_F(Setpoints, ChannelsAreTheDerivativesOfThePosition) {
   }
   EXPECT_EQ(velocity.back(), 0);
   EXPECT_EQ(acceleration.back(), 0);
+}
+
+TEST_F(Setpoints, FollowThePathToItsEnd) {
+  double way = 0;
+  std::uint64_t segment = 0;
+  for (const v1::SetpointBatch& batch : stream(with_all_channels())) {
+    ASSERT_EQ(batch.path_position_mm_size(), batch.position_mm(0).values_size());
+    ASSERT_EQ(batch.segment_size(), batch.position_mm(0).values_size());
+    for (int i = 0; i < batch.segment_size(); ++i) {
+      EXPECT_GE(batch.path_position_mm(i), way - 1e-9);
+      EXPECT_GE(batch.segment(i), segment);
+      way = batch.path_position_mm(i);
+      segment = batch.segment(i);
+    }
+  }
+  EXPECT_EQ(way, plan_.summary().path_length_mm());
+  EXPECT_EQ(segment + 1, plan_.summary().segment_count());
 }
 
 TEST_F(Setpoints, PeriodLongerThanThePlanGivesItsTwoEnds) {

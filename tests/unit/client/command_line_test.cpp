@@ -34,14 +34,28 @@ TEST(CommandLine, DefaultsNeedOnlyAFile) {
 }
 
 TEST(CommandLine, EveryOptionArrives) {
-  const auto [options, message] = parse({"stream",       "-",          "-o",
-                                         "out.csv",      "--machine",  "m.toml",
-                                         "--tolerance",  "0.05",       "--tolerance-kind",
-                                         "corner",       "--strategy", "exact-stop",
-                                         "--feed",       "100",        "--start",
-                                         "-1,2,-3.5",    "--server",   "localhost:1",
-                                         "--period",     "0.004",      "--channels",
-                                         "jerk,velocity"});
+  const auto [options, message] = parse({"stream",
+                                         "-",
+                                         "-o",
+                                         "out.csv",
+                                         "--machine",
+                                         "m.toml",
+                                         "--tolerance",
+                                         "0.05",
+                                         "--tolerance-kind",
+                                         "corner",
+                                         "--strategy",
+                                         "exact-stop",
+                                         "--feed",
+                                         "100",
+                                         "--start",
+                                         "-1,2,-3.5",
+                                         "--server",
+                                         "localhost:1",
+                                         "--period",
+                                         "0.004",
+                                         "--channels",
+                                         "jerk,velocity,path-position,segment"});
   ASSERT_FALSE(message.has_value()) << message->text;
   EXPECT_EQ(options.command, Command::kStream);
   EXPECT_EQ(options.file, "-");
@@ -54,7 +68,9 @@ TEST(CommandLine, EveryOptionArrives) {
   EXPECT_EQ(options.plan.start_mm, (std::vector<double>{-1, 2, -3.5}));
   EXPECT_EQ(options.server.address, "localhost:1");
   EXPECT_EQ(options.period_s, 0.004);
-  EXPECT_EQ(options.channels, (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity}));
+  EXPECT_EQ(options.channels,
+            (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity,
+                                          client::Channel::kPathPosition, client::Channel::kSegment}));
 }
 
 TEST(CommandLine, CertificatesMeanTls) {

@@ -13,6 +13,8 @@ TEST(Csv, HeaderNamesTheColumnsOfTheMachine) {
   EXPECT_EQ(csv_header(2, {Channel::kJerk, Channel::kVelocity}), "t,x,y,vx,vy,jx,jy\n");
   EXPECT_EQ(csv_header(3, {Channel::kVelocity, Channel::kAcceleration, Channel::kJerk}),
             "t,x,y,z,vx,vy,vz,ax,ay,az,jx,jy,jz\n");
+  EXPECT_EQ(csv_header(2, {Channel::kSegment, Channel::kVelocity, Channel::kPathPosition}),
+            "t,x,y,vx,vy,path_position,segment\n");
 }
 
 TEST(Csv, RowsHaveFifteenSignificantDigits) {
@@ -35,6 +37,9 @@ TEST(Csv, ChannelsFollowThePosition) {
   batch.acceleration_mm_s2 = {{5}, {6}};
   batch.jerk_mm_s3 = {{7}, {8}};
   EXPECT_EQ(csv_rows(batch, 1), "0,1,2,3,4,5,6,7,8\n");
+  batch.path_position_mm = {9.5};
+  batch.segment = {10};
+  EXPECT_EQ(csv_rows(batch, 1), "0,1,2,3,4,5,6,7,8,9.5,10\n");
 }
 
 }  // namespace

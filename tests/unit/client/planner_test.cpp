@@ -184,6 +184,19 @@ TEST_F(PlannerTest, StreamsGiveEverySetpointOnceAndResume) {
   EXPECT_TRUE(batch.velocity_mm_s.empty());
 }
 
+TEST_F(PlannerTest, StreamsSayHowFarAlongThePathTheToolIs) {
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 3, 4, 3, 10}}, options());
+  auto stream = planner_.stream_setpoints(plan.name, {.channels = {Channel::kPathPosition, Channel::kSegment}});
+  SetpointBatch batch;
+  ASSERT_TRUE(stream.next(batch));
+  ASSERT_EQ(batch.path_position_mm.size(), batch.size());
+  ASSERT_EQ(batch.segment.size(), batch.size());
+  EXPECT_EQ(batch.path_position_mm.front(), 0);
+  EXPECT_EQ(batch.path_position_mm.back(), 11);
+  EXPECT_EQ(batch.segment.front(), 0);
+  EXPECT_EQ(batch.segment.back(), 1);
+}
+
 TEST_F(PlannerTest, StreamsCanBeLeftHalfWay) {
   const Plan plan = planner_.plan_points({.points_mm = {0, 0, 100'000, 0}}, options());
   for (int i = 0; i < 20; ++i) {
