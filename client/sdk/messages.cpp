@@ -179,8 +179,9 @@ v1::StreamSetpointsRequest to_message(const std::string& plan, const StreamOptio
   message.set_period_s(options.period_s);
   message.set_first_index(options.first_index);
   for (const Channel channel : options.channels) message.add_channels(to_message(channel));
-  message.set_batch_size(options.batch_size);
+  if (options.batch_size) message.set_batch_size(*options.batch_size);
   if (options.last_index) message.set_last_index(*options.last_index);
+  if (options.lead_s) message.set_lead_s(*options.lead_s);
   return message;
 }
 

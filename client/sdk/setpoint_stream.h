@@ -13,11 +13,16 @@ namespace kcs::client {
 enum class Channel { kVelocity, kAcceleration, kJerk, kPathPosition, kSegment };
 
 struct StreamOptions {
-  double period_s = 0.001;                  // between two setpoints, 1e-5 to 10
-  std::uint64_t first_index = 0;            // first setpoint wanted
-  std::vector<Channel> channels;            // wanted beside the position
-  std::uint32_t batch_size = 4096;          // setpoints in a batch, 1 to 32768: small for latency, large for throughput
+  double period_s = 0.001;        // between two setpoints, 1e-5 to 10
+  std::uint64_t first_index = 0;  // first setpoint wanted
+  std::vector<Channel> channels;  // wanted beside the position
+  // Setpoints in a batch, 1 to 32768: small for latency, large for throughput. None: 4096; with lead_s those of 0.1 s,
+  // at most 4096.
+  std::optional<std::uint32_t> batch_size;
   std::optional<std::uint64_t> last_index;  // last one wanted, not before first_index; none: to the end of the path
+  // Real-time pace: how long before the time of its first setpoint a batch is sent, 0 to 3600; the first one's time is
+  // that of the call. None: as fast as next() is called.
+  std::optional<double> lead_s;
 };
 
 // The values of one quantity: columns[axis][k] is that of setpoint first_index + k.

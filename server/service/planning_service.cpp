@@ -11,6 +11,7 @@
 #include "server/service/call_record.h"
 #include "server/service/encode.h"
 #include "server/service/live_call.h"
+#include "server/service/pace.h"
 #include "server/service/setpoint_stream.h"
 #include "server/service/status.h"
 #include "server/service/upload.h"
@@ -153,8 +154,10 @@ grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, cons
     call.note("plan", request->name());
     const Gate::Pass pass(streams_);
     SetpointStream stream(owned_plan(caller, request->name()), *request);
+    Pace pace(*request, end_streams_.get_token(), [context] { return context->IsCancelled(); });
     v1::SetpointBatch batch;
     while (stream.next(batch)) {
+      pace.wait_for(batch.first_index());
       if (!writer->Write(batch)) return grpc::Status::CANCELLED;
       count_setpoints(batch);
     }

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,8 @@ class PlanningService final : public v1::PlanningService::Service {
 
   // Refuses every call from now on; those that run go on.
   void close() { closed_ = true; }
+  // Ends the streams of setpoints that run: those that wait at once, the others when what they are sending is taken.
+  void end_streams() { end_streams_.request_stop(); }
   // Whether no call runs.
   bool idle() const { return running_ == 0; }
 
@@ -72,6 +75,7 @@ class PlanningService final : public v1::PlanningService::Service {
   Gate live_streams_;
   std::atomic<bool> closed_ = false;
   std::atomic<int> running_ = 0;
+  std::stop_source end_streams_;
 };
 
 }  // namespace kcs::service

@@ -28,9 +28,10 @@ namespace {
 
 // Threads for calls beside the uploads and the streams: the short ones, health, reflection.
 constexpr int kSpareThreads = 64;
-// How stopping goes on: how often it looks whether a call runs, how long it waits for clients to read what was sent
-// and for cancelled calls to end.
+// How stopping goes on: how often it looks whether a call runs, how long it waits for streams to end themselves, for
+// clients to read what was sent and for cancelled calls to end.
 constexpr std::chrono::milliseconds kIdleCheck{20};
+constexpr std::chrono::milliseconds kFarewell{200};
 constexpr std::chrono::seconds kLinger{2};
 constexpr std::chrono::seconds kCancellation{1};
 
@@ -93,6 +94,11 @@ struct Server::Parts {
   ~Parts() { http.reset(); }  // it reads from the desk
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
+
+  // Until no call runs, or until `end`.
+  void wait_until_idle(std::chrono::steady_clock::time_point end) const {
+    while (!service.idle() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kIdleCheck);
+  }
 
   const Caps caps;
   Observation observation;
@@ -172,7 +178,10 @@ void Server::stop(std::chrono::milliseconds grace) {
   parts_->server->GetHealthCheckService()->Shutdown();
   parts_->service.close();
   const auto end = std::chrono::steady_clock::now() + grace;
-  while (!parts_->service.idle() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kIdleCheck);
+  parts_->wait_until_idle(end);
+  // A stream that is not yet at its end can go on elsewhere; that it must takes no time to say.
+  parts_->service.end_streams();
+  parts_->wait_until_idle(std::chrono::steady_clock::now() + kFarewell);
   // Only now, for gRPC closes a connection together with its last call, and what the client has not yet read by then is
   // lost. Without a call it waits until the client has confirmed that it read everything; an idle or a silent one may
   // never do so.

@@ -24,8 +24,9 @@ class SetpointColumns {
   // Request: a message with the fields `channels` and `batch_size`; `parent` is what comes before their names. Throws
   // planning::InvalidInput with all that is wrong with them.
   template <typename Request>
-  SetpointColumns(const Request& request, const std::string& parent, std::size_t axes)
-      : axes_(axes), batch_size_(request.has_batch_size() ? request.batch_size() : kBatchSize) {
+  SetpointColumns(const Request& request, const std::string& parent, std::size_t axes,
+                  std::uint32_t usual_batch_size = kBatchSize)
+      : axes_(axes), batch_size_(request.has_batch_size() ? request.batch_size() : usual_batch_size) {
     Violations violations;
     check_batch_size(parent, violations);
     for (int i = 0; i < request.channels_size(); ++i) add_channel(request.channels(i), parent, i, violations);

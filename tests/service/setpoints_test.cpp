@@ -222,6 +222,9 @@ TEST_F(Setpoints, RefuseWhatCannotBeServed) {
     request.add_channels(v1::CHANNEL_UNSPECIFIED);
   });
   refused("channels[0]", [](auto& request) { request.add_channels(static_cast<v1::Channel>(99)); });
+  for (const double lead : {-1e-9, 3601.0, double(NAN), double(INFINITY)}) {
+    refused("lead_s", [lead](auto& request) { request.set_lead_s(lead); });
+  }
   refused("name", [](auto& request) { request.clear_name(); });
   EXPECT_FALSE(stream(every_millisecond()).empty());
 }

@@ -197,6 +197,18 @@ TEST_F(PlannerTest, StreamsSayHowFarAlongThePathTheToolIs) {
   EXPECT_EQ(batch.segment.back(), 1);
 }
 
+TEST_F(PlannerTest, StreamsComeAtThePaceThatIsAskedFor) {
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 20, 0}}, options());
+  const auto began = std::chrono::steady_clock::now();
+  auto stream = planner_.stream_setpoints(plan.name, {.period_s = 0.01, .last_index = 20, .lead_s = 0.05});
+  SetpointBatch batch;
+  ASSERT_TRUE(stream.next(batch));
+  EXPECT_EQ(batch.size(), 10) << "a tenth of a second";
+  while (stream.next(batch)) continue;
+  EXPECT_EQ(batch.first_index, 20);
+  EXPECT_GE(std::chrono::steady_clock::now() - began, std::chrono::milliseconds(150));
+}
+
 TEST_F(PlannerTest, StreamsCanBeLeftHalfWay) {
   const Plan plan = planner_.plan_points({.points_mm = {0, 0, 100'000, 0}}, options());
   for (int i = 0; i < 20; ++i) {
