@@ -1,6 +1,9 @@
 #include "tests/bench/live/server_process.h"
 
+#include <unistd.h>
+
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace kcs::bench {
@@ -10,6 +13,19 @@ ServerProcess::ServerProcess() : process_({KCSD, "--listen", "127.0.0.1:0", "--l
   const std::size_t blank = greeting.rfind(' ');
   if (blank == std::string::npos) throw std::runtime_error("kcsd does not start: " + process_.errors());
   address_ = greeting.substr(blank + 1);
+}
+
+double ServerProcess::cpu_seconds() const {
+  std::ifstream file("/proc/" + std::to_string(process_.pid()) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  std::istringstream fields(line.substr(line.rfind(')') + 1));  // the name before it may have blanks
+  constexpr int kBefore = 11;                                   // fields between the name and the times
+  std::string skipped;
+  for (int i = 0; i < kBefore; ++i) fields >> skipped;
+  double user = 0, system = 0;
+  if (!(fields >> user >> system)) throw std::runtime_error("kcsd is gone: " + process_.errors());
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 std::size_t ServerProcess::status(const std::string& key) const {

@@ -20,6 +20,9 @@ class ServerProcess {
   std::size_t memory() const { return status("VmRSS:"); }
   std::size_t most_memory() const { return status("VmHWM:"); }
 
+  // Time that its threads have taken of the processors so far, s.
+  double cpu_seconds() const;
+
  private:
   std::size_t status(const std::string& key) const;
 
