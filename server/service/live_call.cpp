@@ -7,7 +7,8 @@
 
 namespace kcs::service {
 
-LiveCall::LiveCall(const Caps& caps, SendLive send) : caps_(caps), send_(std::move(send)) {}
+LiveCall::LiveCall(const Caps& caps, SendLive send, std::stop_token stop)
+    : caps_(caps), send_(std::move(send)), stop_(std::move(stop)) {}
 
 std::uint64_t LiveCall::add(const v1::PlanLiveRequest& message) {
   const std::uint64_t before = segments_;
@@ -27,8 +28,10 @@ void LiveCall::begin(const v1::PlanOptions& options, const v1::LiveOutput& outpu
 void LiveCall::plan(const planning::Segment& segment) {
   if (!planner_) {
     const jobs::RequestOptions& options = incoming_->options();
+    planning::PlanOptions planning = options.planning;
+    planning.stop = stop_;
     setpoints_->begin(incoming_->start());
-    planner_.emplace(options.ends(incoming_->start()), options.planning, *this);
+    planner_.emplace(options.ends(incoming_->start()), planning, *this);
   }
   planner_->add(segment);
   ++segments_;

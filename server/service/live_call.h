@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 
 #include "server/planning/live_planner.h"
 #include "server/service/caps.h"
@@ -16,11 +17,12 @@ namespace kcs::service {
 
 // Plans each message's piece of the path, and sends what is settled by it, before the next one is taken: nothing piles
 // up, and a client that takes no setpoints has to wait with its path. Memory: that of the planner, of one message and
-// of one batch. Both methods throw planning::InvalidInput, jobs::CapExceeded, and what `send` throws.
+// of one batch. Both methods throw planning::InvalidInput, jobs::CapExceeded, planning::Stopped if they are asked to
+// stop, and what `send` throws.
 class LiveCall final : public planning::PlanReceiver {
  public:
-  // Keeps a reference to `caps`.
-  LiveCall(const Caps& caps, SendLive send);
+  // Keeps a reference to `caps`. stop: how to say that the client has gone.
+  LiveCall(const Caps& caps, SendLive send, std::stop_token stop = {});
   // Its parts refer to each other.
   LiveCall(const LiveCall&) = delete;
   LiveCall& operator=(const LiveCall&) = delete;
@@ -41,6 +43,7 @@ class LiveCall final : public planning::PlanReceiver {
 
   const Caps& caps_;
   SendLive send_;
+  std::stop_token stop_;
   std::optional<IncomingPath> incoming_;  // once the options came
   std::optional<LiveSetpoints> setpoints_;
   std::optional<LiveCorners> corners_;            // if they are wanted

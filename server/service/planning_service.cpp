@@ -115,11 +115,13 @@ grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadRe
 grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream* stream) {
   return answer("PlanLive", *context, [&](CallRecord& call, const Identity& /*caller*/) -> grpc::Status {
     const Gate::Pass pass(live_streams_);
-    LiveCall live(caps_, [&](const v1::PlanLiveResponse& response) {
+    const CancelWatch::Call watched(cancel_watch_, *context);
+    const auto send = [&](const v1::PlanLiveResponse& response) {
       if (!stream->Write(response)) throw Cancelled();
       count_setpoints(response.setpoints());
       if (response.has_plan()) call.note("plan", response.plan().name());
-    });
+    };
+    LiveCall live(caps_, send, watched.stop());
     grpc::ByteBuffer bytes;
     while (stream->Read(&bytes)) {
       observation_.metrics.segments_planned.add(live.add(parse<v1::PlanLiveRequest>(bytes)));

@@ -13,6 +13,7 @@
 #include "server/jobs/plan_desk.h"
 #include "server/jobs/plan_store.h"
 #include "server/service/access_control.h"
+#include "server/service/cancel_watch.h"
 #include "server/service/caps.h"
 #include "server/service/gate.h"
 #include "server/service/observation.h"
@@ -73,6 +74,7 @@ class PlanningService final : public v1::PlanningService::Service {
   Gate uploads_;
   Gate streams_;
   Gate live_streams_;
+  CancelWatch cancel_watch_;
   std::atomic<bool> closed_ = false;
   std::atomic<int> running_ = 0;
   std::stop_source end_streams_;

@@ -12,6 +12,7 @@
 #include "server/jobs/cap_exceeded.h"
 #include "server/jobs/withdrawn.h"
 #include "server/planning/invalid_input.h"
+#include "server/planning/stopped.h"
 #include "server/service/printable.h"
 #include "server/service/status_details.h"
 
@@ -29,6 +30,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFields =
      {"path, end_speed", "options.end_speed_mm_s"}}};
 
 constexpr std::string_view kStopping = "the server is stopping; try again later";
+constexpr std::string_view kGone = "the client gave up";
 // When another replica, or the next start of this one, may answer.
 constexpr std::chrono::seconds kStoppingRetry{1};
 // When memory that is taken may be free again.
@@ -87,8 +89,10 @@ CallEnd end_by_current_exception() {
     return {failure(grpc::StatusCode::PERMISSION_DENIED, refused.what())};
   } catch (const Stopping&) {
     return {stopping()};
+  } catch (const planning::Stopped&) {
+    return {failure(grpc::StatusCode::CANCELLED, kGone)};
   } catch (const Cancelled&) {
-    return {failure(grpc::StatusCode::CANCELLED, "the client gave up")};
+    return {failure(grpc::StatusCode::CANCELLED, kGone)};
   } catch (const jobs::Withdrawn& withdrawn) {
     return {failure(grpc::StatusCode::ABORTED, withdrawn.what())};
   } catch (const std::bad_alloc&) {

@@ -21,6 +21,7 @@ struct CallEnd {
 //   Forbidden                PERMISSION_DENIED
 //   Stopping                 UNAVAILABLE with a google.rpc.RetryInfo
 //   Cancelled                CANCELLED
+//   planning::Stopped        CANCELLED: its client has gone
 //   jobs::Withdrawn          ABORTED: the plan was deleted before it was made
 //   std::bad_alloc           RESOURCE_EXHAUSTED with a google.rpc.RetryInfo
 //   anything else            INTERNAL with the reason: a defect of kcs

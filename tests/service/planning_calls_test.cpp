@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/service/live_client.h"
 #include "tests/service/test_server.h"
 
 namespace kcs::service::test {
@@ -123,6 +124,38 @@ TEST(PlanningCalls, CancellingFreesTheThreadWithinFiftyMilliseconds) {
   }
   std::ranges::sort(times);
   EXPECT_LE(times[kCalls / 2], milliseconds(50));  // the longest ones tell how busy the machine is
+}
+
+// A path that PlanLive plans in one go, for seconds.
+v1::PathChunk many_legs_within_the_tolerance() {
+  v1::PathChunk chunk;
+  chunk.add_feed_mm_s(100);
+  chunk.add_tolerance_mm(100);
+  for (int i = 0; i < 60'000; ++i) {
+    chunk.add_points_mm(0.01 * i);
+    chunk.add_points_mm(0.001 * (i % 2));
+  }
+  return chunk;
+}
+
+TEST(PlanningCalls, CancellingALiveCallFreesItsPlaceWithinFiftyMilliseconds) {
+  constexpr std::size_t kCalls = 5;
+  TestServer server({.caps = {.live_streams = 1}});
+  const auto small = live({request(options()), request(right_angle())}, every(0.001));
+  const auto large = live({request(options()), request(many_legs_within_the_tolerance())}, every(0.001));
+  std::vector<steady_clock::duration> times;
+  while (times.size() < kCalls) {
+    LiveClient call(server);
+    for (const v1::PlanLiveRequest& message : large) ASSERT_TRUE(call.write(message));
+    std::this_thread::sleep_for(milliseconds(300));  // it plans by now, or is about to
+    const auto cancelled = steady_clock::now();
+    call.cancel();
+    ASSERT_TRUE(eventually([&] { return LiveClient(server).exchange(small).status.ok(); }));
+    times.push_back(steady_clock::now() - cancelled);
+    EXPECT_EQ(call.read_all().status.error_code(), grpc::StatusCode::CANCELLED);
+  }
+  std::ranges::sort(times);
+  EXPECT_LE(times[kCalls / 2], milliseconds(50));
 }
 
 TEST(PlanningCalls, ClientWithTooManyWaitingIsRefusedAndToldWhenToTryAgain) {
