@@ -58,7 +58,7 @@ void CallRecord::note(const std::string& field, std::string_view text) {
 
 grpc::Status CallRecord::finish(const CallEnd& end) {
   count(end);
-  log(end.status);
+  log(end);
   return end.status.ok() ? end.status : with_request_id(end.status, request_id_);
 }
 
@@ -72,13 +72,15 @@ void CallRecord::count(const CallEnd& end) const {
   }
 }
 
-void CallRecord::log(const grpc::Status& status) const {
+void CallRecord::log(const CallEnd& end) const {
+  const grpc::Status& status = end.status;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began_;
   observe::LogFields fields = {{"request_id", request_id_},
                                {"method", method_},
                                {"peer", context_.peer()},
                                {"status", name_of(status.error_code())},
                                {"duration_s", taken.count()}};
+  if (!end.reason.empty()) fields["reason"] = end.reason;
   for (const auto& [field, value] : notes_.items()) fields[field] = value;
   switch (ending_of(status.error_code())) {
     case Ending::kDone:

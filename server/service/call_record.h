@@ -34,7 +34,7 @@ class CallRecord {
 
  private:
   void count(const CallEnd& end) const;
-  void log(const grpc::Status& status) const;
+  void log(const CallEnd& end) const;
 
   const Observation& observation_;
   const std::string method_;

@@ -14,7 +14,8 @@ struct Caps {
   std::uint64_t gcode_bytes = 64 << 20;
   // One message of a client. gRPC's own default, which its clients keep to as well.
   std::uint64_t message_bytes = 4 << 20;
-  // Plans kept for GetPlan and the streams. Beyond either number the plan that was not used for longest is forgotten.
+  // Trajectories kept in memory for the streams. Beyond either number the one that was not used for longest is forgotten,
+  // to be planned again from its request in the store.
   std::uint64_t stored_plans = 1'000;
   std::uint64_t stored_bytes = std::uint64_t{2} << 30;
   // Requests that wait for a planning thread, and those of one client among them. Each holds its whole tool path, and

@@ -16,8 +16,11 @@ Keys cap_keys(Caps& caps) {
   constexpr std::int64_t kMany = 1'000'000'000'000;
   constexpr std::int64_t kMostCalls = 10'000;  // each may take a thread
   constexpr std::int64_t kMostMessage = 1 << 30;
-  return {{"points_per_plan", whole(caps.points_per_plan, 2, kMany)},
-          {"gcode_bytes", whole(caps.gcode_bytes, 1, kMany)},
+  // What goes into the store in one piece, of a GiB.
+  constexpr std::int64_t kMostPoints = 20'000'000;
+  constexpr std::int64_t kMostGcode = 1 << 30;
+  return {{"points_per_plan", whole(caps.points_per_plan, 2, kMostPoints)},
+          {"gcode_bytes", whole(caps.gcode_bytes, 1, kMostGcode)},
           {"message_bytes", whole(caps.message_bytes, 1024, kMostMessage)},
           {"stored_plans", whole(caps.stored_plans, 1, kMany)},
           {"stored_bytes", whole(caps.stored_bytes, 1, kMany)},
@@ -46,7 +49,7 @@ Config load_config(const std::string& file) {
                  {"connections", table_of("connections", connection_keys(config.server.connections))},
                  {"observe", table_of("observe", observe_keys(config.server.observe))},
                  {"server", table_of("server", server_keys(config))},
-                 {"store", table_of("store", store_keys(config.store))}};
+                 {"store", table_of("store", store_keys(config.server.store))}};
   tables.merge(security_tables(config.server.security));
   read_tables(file, tables);
   return config;

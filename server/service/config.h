@@ -7,13 +7,11 @@
 #include <string>
 
 #include "server/service/server.h"
-#include "server/store/settings.h"
 
 namespace kcs::service {
 
 struct Config {
   ServerOptions server;
-  store::StoreSettings store;
   // How long running requests may go on once the server is told to stop.
   std::chrono::milliseconds grace = std::chrono::seconds(10);
   spdlog::level::level_enum log_level = spdlog::level::info;

@@ -39,25 +39,6 @@ v1::CornerStrategy encode_strategy(planning::CornerStrategy strategy) {
   return v1::CORNER_STRATEGY_UNSPECIFIED;
 }
 
-void encode_options(const jobs::RequestOptions& options, v1::PlanOptions& message) {
-  const planning::AxisLimits& limits = options.planning.limits;
-  v1::Machine& machine = *message.mutable_machine();
-  machine.set_name(options.machine_name);
-  machine.set_axes(static_cast<std::uint32_t>(limits.axes));
-  encode_vector(limits.velocity, limits.axes, *machine.mutable_velocity_mm_s());
-  encode_vector(limits.acceleration, limits.axes, *machine.mutable_acceleration_mm_s2());
-  encode_vector(limits.jerk, limits.axes, *machine.mutable_jerk_mm_s3());
-  if (options.rapid) machine.set_rapid_mm_s(*options.rapid);
-  message.set_tolerance_mm(options.tolerance);
-  message.set_tolerance_kind(encode_tolerance_kind(options.planning.tolerance_kind));
-  message.set_strategy(encode_strategy(options.planning.strategy));
-  if (options.feed) message.set_feed_mm_s(*options.feed);
-  if (options.start) encode_vector(*options.start, limits.axes, *message.mutable_start_mm());
-  message.set_start_speed_mm_s(options.start_speed);
-  message.set_start_acceleration_mm_s2(options.start_acceleration);
-  message.set_end_speed_mm_s(options.end_speed);
-}
-
 void encode_summary(const Outcome& outcome, std::size_t axes, v1::PlanSummary& message) {
   const planning::Summary& summary = outcome.summary;
   message.set_cycle_time_s(summary.cycle_time);
@@ -84,6 +65,25 @@ void encode_summary(const Outcome& outcome, std::size_t axes, v1::PlanSummary& m
 }
 
 }  // namespace
+
+void encode_options(const jobs::RequestOptions& options, v1::PlanOptions& message) {
+  const planning::AxisLimits& limits = options.planning.limits;
+  v1::Machine& machine = *message.mutable_machine();
+  machine.set_name(options.machine_name);
+  machine.set_axes(static_cast<std::uint32_t>(limits.axes));
+  encode_vector(limits.velocity, limits.axes, *machine.mutable_velocity_mm_s());
+  encode_vector(limits.acceleration, limits.axes, *machine.mutable_acceleration_mm_s2());
+  encode_vector(limits.jerk, limits.axes, *machine.mutable_jerk_mm_s3());
+  if (options.rapid) machine.set_rapid_mm_s(*options.rapid);
+  message.set_tolerance_mm(options.tolerance);
+  message.set_tolerance_kind(encode_tolerance_kind(options.planning.tolerance_kind));
+  message.set_strategy(encode_strategy(options.planning.strategy));
+  if (options.feed) message.set_feed_mm_s(*options.feed);
+  if (options.start) encode_vector(*options.start, limits.axes, *message.mutable_start_mm());
+  message.set_start_speed_mm_s(options.start_speed);
+  message.set_start_acceleration_mm_s2(options.start_acceleration);
+  message.set_end_speed_mm_s(options.end_speed);
+}
 
 void encode_plan(const jobs::RequestRecord& request, const Outcome& outcome, v1::Plan& message) {
   message.set_name(request.name);

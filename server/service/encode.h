@@ -9,6 +9,9 @@
 
 namespace kcs::service {
 
+// All of them, with their defaults.
+void encode_options(const jobs::RequestOptions& options, v1::PlanOptions& message);
+
 // What became of a request.
 struct Outcome {
   planning::Summary summary;

@@ -31,7 +31,9 @@ void Pace::wait_for(std::uint64_t first_index) {
   if (stop_.stop_requested()) throw Stopping();
   if (!has_lead_) return;
   std::unique_lock lock(mutex_);
-  for (double left = time_left(first_index); left > 0; left = time_left(first_index)) {
+  while (true) {
+    const double left = time_left(first_index);
+    if (left <= 0) return;
     if (is_cancelled_()) throw Cancelled();
     const std::chrono::duration<double> step(std::min(left, kCancellationCheck));
     never_.wait_for(lock, stop_, step, [] { return false; });

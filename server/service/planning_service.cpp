@@ -3,7 +3,6 @@
 #include <grpcpp/support/method_handler.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -22,9 +21,6 @@ namespace kcs::service {
 using security::Identity;
 
 namespace {
-
-// How soon a client that gave up is noticed while its plan is made.
-constexpr std::chrono::milliseconds kCancellationCheck{10};
 
 // The caller, or where nobody is told apart the address that the call comes from, without its port:
 // "ipv4:192.0.2.7:51234" is a client on 192.0.2.7.
@@ -57,10 +53,9 @@ class Running {
 
 }  // namespace
 
-PlanningService::PlanningService(jobs::PlanDesk& desk, jobs::PlanStore& plans, const Caps& caps,
-                                 const AccessControl& access, const Observation& observation)
-    : desk_(desk),
-      plans_(plans),
+PlanningService::PlanningService(Plans& plans, const Caps& caps, const AccessControl& access,
+                                 const Observation& observation)
+    : plans_(plans),
       caps_(caps),
       access_(access),
       observation_(observation),
@@ -85,7 +80,10 @@ grpc::Status PlanningService::answer(std::string_view method, grpc::ServerContex
   CallEnd end;
   try {
     if (closed_) throw Stopping();
-    end.status = work(call, access_.admit(context, method));
+    Caller caller{.identity = access_.admit(context, method), .request_id = call.request_id()};
+    caller.client = client_of(caller.identity, context);
+    caller.require_wanted = [this, &context] { require_wanted(context); };
+    end.status = work(call, caller);
   } catch (...) {
     end = end_by_current_exception();
   }
@@ -93,27 +91,22 @@ grpc::Status PlanningService::answer(std::string_view method, grpc::ServerContex
 }
 
 grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan) {
-  return answer("CreatePlan", *context, [&](CallRecord& call, const Identity& caller) -> grpc::Status {
+  return answer("CreatePlan", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
     const Gate::Pass pass(uploads_);
     Upload upload(caps_);
     grpc::ByteBuffer bytes;
     while (reader->Read(&bytes)) upload.add(parse<v1::CreatePlanRequest>(bytes));
-    if (context->IsCancelled()) return grpc::Status::CANCELLED;
-    jobs::PlanRequest request = upload.finish();
-    request.call = call.request_id();
-    call.note("plan", request.name);
-    const jobs::Ticket ticket = desk_.submit(std::move(request), client_of(caller, *context), upload.priority());
-    while (!ticket.wait(kCancellationCheck)) {
-      if (context->IsCancelled()) return grpc::Status::CANCELLED;
-    }
-    owners_.add(ticket.plan(), caller.owner);
-    encode_plan(*ticket.plan(), *plan);
+    caller.require_wanted();
+    Uploaded uploaded = upload.finish();
+    uploaded.request.call = caller.request_id;
+    call.note("plan", uploaded.request.name);
+    *plan = plans_.create(caller, std::move(uploaded));
     return grpc::Status::OK;
   });
 }
 
 grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream* stream) {
-  return answer("PlanLive", *context, [&](CallRecord& call, const Identity& /*caller*/) -> grpc::Status {
+  return answer("PlanLive", *context, [&](CallRecord& call, const Caller& /*caller*/) -> grpc::Status {
     const Gate::Pass pass(live_streams_);
     const CancelWatch::Call watched(cancel_watch_, *context);
     const auto send = [&](const v1::PlanLiveResponse& response) {
@@ -133,30 +126,49 @@ grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream
 }
 
 grpc::Status PlanningService::GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest* request, v1::Plan* plan) {
-  return answer("GetPlan", *context, [&](CallRecord& call, const Identity& caller) {
+  return answer("GetPlan", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
-    encode_plan(*owned_plan(caller, request->name()), *plan);
+    *plan = plans_.get(caller, request->name());
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status PlanningService::ListPlans(grpc::ServerContext* context, const v1::ListPlansRequest* request,
+                                        v1::ListPlansResponse* response) {
+  return answer("ListPlans", *context, [&](CallRecord& /*call*/, const Caller& caller) {
+    *response = plans_.list(caller, *request);
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status PlanningService::WatchPlan(grpc::ServerContext* context, const v1::WatchPlanRequest* request,
+                                        grpc::ServerWriter<v1::PlanProgress>* writer) {
+  return answer("WatchPlan", *context, [&](CallRecord& call, const Caller& caller) {
+    call.note("plan", request->name());
+    const Gate::Pass pass(streams_);
+    plans_.watch(caller, request->name(), [writer](const v1::PlanProgress& progress) {
+      if (!writer->Write(progress)) throw Cancelled();
+    });
     return grpc::Status::OK;
   });
 }
 
 grpc::Status PlanningService::DeletePlan(grpc::ServerContext* context, const v1::DeletePlanRequest* request,
                                          google::protobuf::Empty* /*nothing*/) {
-  return answer("DeletePlan", *context, [&](CallRecord& call, const Identity& caller) {
+  return answer("DeletePlan", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
-    owned_plan(caller, request->name());
-    if (owners_.remove(caller, request->name())) plans_.forget(request->name());
+    plans_.remove(caller, request->name());
     return grpc::Status::OK;
   });
 }
 
 grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, const v1::StreamSetpointsRequest* request,
                                               grpc::ServerWriter<v1::SetpointBatch>* writer) {
-  return answer("StreamSetpoints", *context, [&](CallRecord& call, const Identity& caller) {
+  return answer("StreamSetpoints", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
     const Gate::Pass pass(streams_);
-    SetpointStream stream(owned_plan(caller, request->name()), *request);
-    Pace pace(*request, end_streams_.get_token(), [context] { return context->IsCancelled(); });
+    SetpointStream stream(plans_.load(caller, request->name()), *request);
+    Pace pace(*request, end_calls_.get_token(), [context] { return context->IsCancelled(); });
     v1::SetpointBatch batch;
     while (stream.next(batch)) {
       pace.wait_for(batch.first_index());
@@ -169,10 +181,10 @@ grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, cons
 
 grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* context, const v1::DescribeCornersRequest* request,
                                               grpc::ServerWriter<v1::CornerBatch>* writer) {
-  return answer("DescribeCorners", *context, [&](CallRecord& call, const Identity& caller) {
+  return answer("DescribeCorners", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
     const Gate::Pass pass(streams_);
-    const jobs::PlanPointer kept = owned_plan(caller, request->name());
+    const jobs::PlanPointer kept = plans_.load(caller, request->name());
     const planning::CornerList& corners = kept->plan.corners;
     for (std::size_t first = 0; first < corners.size(); first += kCornersPerBatch) {
       v1::CornerBatch batch;
@@ -189,11 +201,9 @@ void PlanningService::count_setpoints(const v1::SetpointBatch& batch) const {
   observation_.metrics.setpoints_sent.add(static_cast<std::uint64_t>(batch.position_mm(0).values_size()));
 }
 
-jobs::PlanPointer PlanningService::owned_plan(const Identity& caller, const std::string& name) {
-  if (name.empty()) refuse("name", "is missing: give the name of a plan");
-  jobs::PlanPointer kept = owners_.sees(caller, name) ? plans_.find(name) : nullptr;
-  if (!kept) throw NotKept();
-  return kept;
+void PlanningService::require_wanted(const grpc::ServerContext& context) const {
+  if (context.IsCancelled()) throw Cancelled();
+  if (end_calls_.stop_requested()) throw Stopping();
 }
 
 }  // namespace kcs::service

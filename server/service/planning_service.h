@@ -10,31 +10,34 @@
 #include <string>
 #include <string_view>
 
-#include "server/jobs/plan_desk.h"
-#include "server/jobs/plan_store.h"
 #include "server/service/access_control.h"
+#include "server/service/caller.h"
 #include "server/service/cancel_watch.h"
 #include "server/service/caps.h"
 #include "server/service/gate.h"
 #include "server/service/observation.h"
-#include "server/service/plan_owners.h"
+#include "server/service/plans.h"
 
 namespace kcs::service {
 
 class PlanningService final : public v1::PlanningService::Service {
  public:
-  // Keeps references to all of them. plans: where the desk keeps its plans.
-  PlanningService(jobs::PlanDesk& desk, jobs::PlanStore& plans, const Caps& caps, const AccessControl& access,
-                  const Observation& observation);
+  // Keeps references to all of them.
+  PlanningService(Plans& plans, const Caps& caps, const AccessControl& access, const Observation& observation);
 
   // Refuses every call from now on; those that run go on.
   void close() { closed_ = true; }
-  // Ends the streams of setpoints that run: those that wait at once, the others when what they are sending is taken.
-  void end_streams() { end_streams_.request_stop(); }
+  // Ends the calls that run, with UNAVAILABLE: those that wait for a plan or for the time to send, and streams when
+  // what they are sending is taken.
+  void end_calls() { end_calls_.request_stop(); }
   // Whether no call runs.
   bool idle() const { return running_ == 0; }
 
   grpc::Status GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest* request, v1::Plan* plan) override;
+  grpc::Status ListPlans(grpc::ServerContext* context, const v1::ListPlansRequest* request,
+                         v1::ListPlansResponse* response) override;
+  grpc::Status WatchPlan(grpc::ServerContext* context, const v1::WatchPlanRequest* request,
+                         grpc::ServerWriter<v1::PlanProgress>* writer) override;
   grpc::Status DeletePlan(grpc::ServerContext* context, const v1::DeletePlanRequest* request,
                           google::protobuf::Empty* nothing) override;
   grpc::Status StreamSetpoints(grpc::ServerContext* context, const v1::StreamSetpointsRequest* request,
@@ -54,30 +57,28 @@ class PlanningService final : public v1::PlanningService::Service {
   // Has `handler` called for a method.
   void handle(const char* method, std::unique_ptr<grpc::internal::MethodHandler> handler);
 
-  // Runs `work` for a caller who may call this method. It takes the call's record and the caller's Identity and returns
-  // a grpc::Status; no exception gets out, as none may cross into gRPC. Counts and logs the call.
+  // Runs `work` for a caller who may call this method. It takes the call's record and the Caller and returns a
+  // grpc::Status; no exception gets out, as none may cross into gRPC. Counts and logs the call.
   template <typename Work>
   grpc::Status answer(std::string_view method, grpc::ServerContext& context, const Work& work);
 
   // That were sent.
   void count_setpoints(const v1::SetpointBatch& batch) const;
 
-  // The caller's plan of that name. Throws planning::InvalidInput without a name, NotKept if he has no such plan.
-  jobs::PlanPointer owned_plan(const security::Identity& caller, const std::string& name);
+  // Throws Cancelled once the client has gone, Stopping once the server ends its calls.
+  void require_wanted(const grpc::ServerContext& context) const;
 
-  jobs::PlanDesk& desk_;
-  jobs::PlanStore& plans_;
+  Plans& plans_;
   const Caps& caps_;
   const AccessControl& access_;
   const Observation& observation_;
-  PlanOwners owners_;
   Gate uploads_;
   Gate streams_;
   Gate live_streams_;
   CancelWatch cancel_watch_;
   std::atomic<bool> closed_ = false;
   std::atomic<int> running_ = 0;
-  std::stop_source end_streams_;
+  std::stop_source end_calls_;
 };
 
 }  // namespace kcs::service

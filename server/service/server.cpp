@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <future>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -16,9 +17,12 @@
 #include "server/jobs/plan_store.h"
 #include "server/observe/http_endpoint.h"
 #include "server/service/access_control.h"
+#include "server/service/archive.h"
+#include "server/service/caretaker.h"
 #include "server/service/listen_address.h"
 #include "server/service/observation.h"
 #include "server/service/planning_service.h"
+#include "server/service/plans.h"
 #include "server/service/socket_acceptor.h"
 #include "server/service/tls_credentials.h"
 #include "server/systemd/inherited_sockets.h"
@@ -83,11 +87,13 @@ struct Server::Parts {
       : caps(options.caps),
         observation{.log = options.log},
         http(make_http(options.observe.http_listen, observation)),
-        plans(caps.stored_plans, caps.stored_bytes),
-        desk(plans, scheduling(caps, thread_count(options.planning_threads)),
+        memory(caps.stored_plans, caps.stored_bytes),
+        archive(options.store, memory, observation.metrics.store_duration),
+        desk(archive, scheduling(caps, thread_count(options.planning_threads)),
              [this](const jobs::PlanDesk::Planned& planned) { report(observation, planned); }),
+        plans(desk, archive, caps),
         access(options.security),
-        service(desk, plans, caps, access, observation),
+        service(plans, caps, access, observation),
         credentials(make_credentials(options.security)) {
     add_readings(observation.registry, desk);
   }
@@ -103,8 +109,11 @@ struct Server::Parts {
   const Caps caps;
   Observation observation;
   std::unique_ptr<observe::HttpEndpoint> http;  // null if nobody asked for it
-  jobs::PlanStore plans;
+  jobs::PlanStore memory;
+  Archive archive;
   jobs::PlanDesk desk;
+  std::optional<Caretaker> caretaker;  // from when it listens until it stops
+  Plans plans;
   AccessControl access;
   PlanningService service;
   std::shared_ptr<grpc::ServerCredentials> credentials;  // stay as long as the server
@@ -129,7 +138,8 @@ Server::Server(const ServerOptions& options) {
   grpc::HealthCheckServiceInterface* const health = parts_->server->GetHealthCheckService();
   health->SetServingStatus(v1::PlanningService::service_full_name(), false);
   parts_->observation.readiness.watch([health](bool ready) { health->SetServingStatus(ready); });
-  parts_->observation.readiness.set_ready();
+  parts_->caretaker.emplace(parts_->archive, parts_->desk, parts_->observation.readiness, parts_->caps,
+                            options.store.lease);
 }
 
 void Server::serve_address(grpc::ServerBuilder& builder, const std::string& listen) {
@@ -180,8 +190,9 @@ void Server::stop(std::chrono::milliseconds grace) {
   const auto end = std::chrono::steady_clock::now() + grace;
   parts_->wait_until_idle(end);
   // A stream that is not yet at its end can go on elsewhere; that it must takes no time to say.
-  parts_->service.end_streams();
+  parts_->service.end_calls();
   parts_->wait_until_idle(std::chrono::steady_clock::now() + kFarewell);
+  parts_->caretaker->stop();
   // Only now, for gRPC closes a connection together with its last call, and what the client has not yet read by then is
   // lost. Without a call it waits until the client has confirmed that it read everything; an idle or a silent one may
   // never do so.

@@ -14,6 +14,7 @@
 #include "server/service/connections.h"
 #include "server/service/observe_settings.h"
 #include "server/service/security.h"
+#include "server/store/settings.h"
 
 namespace kcs::service {
 
@@ -24,6 +25,7 @@ struct ServerOptions {
   // Threads that plan; 0: one for each processor. The plans do not depend on it.
   std::size_t planning_threads = 0;
   Caps caps;
+  store::StoreSettings store;
   ObserveSettings observe;
   SecuritySettings security;
   ConnectionSettings connections;

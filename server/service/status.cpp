@@ -15,6 +15,7 @@
 #include "server/planning/stopped.h"
 #include "server/service/printable.h"
 #include "server/service/status_details.h"
+#include "server/store/errors.h"
 
 namespace kcs::service {
 namespace {
@@ -30,9 +31,14 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFields =
      {"path, end_speed", "options.end_speed_mm_s"}}};
 
 constexpr std::string_view kStopping = "the server is stopping; try again later";
+constexpr std::string_view kNoStore = "the server cannot reach its store; try again later";
+constexpr std::string_view kStoreFull = "the disk of the server's store is full; its operator must make room";
+constexpr std::string_view kStoreBroken = "the server's store needs its operator; the log says why";
 constexpr std::string_view kGone = "the client gave up";
 // When another replica, or the next start of this one, may answer.
 constexpr std::chrono::seconds kStoppingRetry{1};
+// When an operator may have made room.
+constexpr std::chrono::seconds kStoreRetry{60};
 // When memory that is taken may be free again.
 constexpr std::chrono::seconds kMemoryRetry{5};
 
@@ -72,6 +78,20 @@ grpc::Status stopping() { return with_retry(failure(grpc::StatusCode::UNAVAILABL
 
 }  // namespace
 
+std::string encode_refusal(const grpc::Status& status) {
+  if (!status.error_details().empty()) return status.error_details();
+  google::rpc::Status message;
+  message.set_code(status.error_code());
+  message.set_message(status.error_message());
+  return message.SerializeAsString();
+}
+
+grpc::Status decode_refusal(const std::string& bytes) {
+  google::rpc::Status message;
+  if (!message.ParseFromString(bytes)) return failure(grpc::StatusCode::INTERNAL, kStoreBroken);
+  return {static_cast<grpc::StatusCode>(message.code()), message.message(), bytes};
+}
+
 CallEnd end_by_current_exception() {
   try {
     throw;
@@ -93,6 +113,14 @@ CallEnd end_by_current_exception() {
     return {failure(grpc::StatusCode::CANCELLED, kGone)};
   } catch (const Cancelled&) {
     return {failure(grpc::StatusCode::CANCELLED, kGone)};
+  } catch (const Refused& refused) {
+    return {refused.status};
+  } catch (const store::StoreUnavailable& unavailable) {
+    return {with_retry(failure(grpc::StatusCode::UNAVAILABLE, kNoStore), kStoppingRetry), {}, unavailable.what()};
+  } catch (const store::StoreFull& full) {
+    return {with_retry(failure(grpc::StatusCode::RESOURCE_EXHAUSTED, kStoreFull), kStoreRetry), {}, full.what()};
+  } catch (const store::StoreError& broken) {
+    return {failure(grpc::StatusCode::INTERNAL, kStoreBroken), {}, broken.what()};
   } catch (const jobs::Withdrawn& withdrawn) {
     return {failure(grpc::StatusCode::ABORTED, withdrawn.what())};
   } catch (const std::bad_alloc&) {

@@ -10,7 +10,8 @@ namespace kcs::service {
 
 struct CallEnd {
   grpc::Status status;
-  std::string cap = {};  // for which it was refused; empty if it was not for one
+  std::string cap = {};     // for which it was refused; empty if it was not for one
+  std::string reason = {};  // for the log alone; empty if the status says all
 };
 
 // The end that the exception being handled brings; call it inside a catch clause only.
@@ -20,6 +21,9 @@ struct CallEnd {
 //   Unauthenticated          UNAUTHENTICATED
 //   Forbidden                PERMISSION_DENIED
 //   Stopping                 UNAVAILABLE with a google.rpc.RetryInfo
+//   Refused                  the status that the plan was refused with
+//   store::StoreUnavailable  UNAVAILABLE with a google.rpc.RetryInfo
+//   store::StoreFull         RESOURCE_EXHAUSTED with a google.rpc.RetryInfo
 //   Cancelled                CANCELLED
 //   planning::Stopped        CANCELLED: its client has gone
 //   jobs::Withdrawn          ABORTED: the plan was deleted before it was made
@@ -40,6 +44,15 @@ struct Unauthenticated : std::runtime_error {
 struct Forbidden : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// Thrown where a plan is asked for that was refused, after it was accepted without waiting for it.
+struct Refused {
+  grpc::Status status;
+};
+
+// A status as it is kept, until Refused carries it to those who ask.
+std::string encode_refusal(const grpc::Status& status);
+grpc::Status decode_refusal(const std::string& bytes);
 
 // Thrown where a call comes after the server was told to stop.
 struct Stopping {};

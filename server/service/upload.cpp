@@ -7,11 +7,21 @@
 namespace kcs::service {
 
 void Upload::add(const v1::CreatePlanRequest& message) {
+  take_manner(message);
+  add_message(message, incoming_, [this](const v1::PlanOptions& options) { begin(options); });
+  uploaded_.gcode += message.gcode();
+}
+
+// What is no part of the plan: how it is to be made.
+void Upload::take_manner(const v1::CreatePlanRequest& message) {
   if (message.priority() != v1::PRIORITY_UNSPECIFIED) {
     if (incoming_) refuse("priority", "came late: send it once, beside the options");
-    priority_ = decode_priority(message.priority());
+    uploaded_.priority = decode_priority(message.priority());
   }
-  add_message(message, incoming_, [this](const v1::PlanOptions& options) { begin(options); });
+  if (message.accept_only()) {
+    if (incoming_) refuse("accept_only", "came late: send it once, beside the options");
+    uploaded_.accept_only = true;
+  }
 }
 
 void Upload::begin(const v1::PlanOptions& options) {
@@ -19,14 +29,15 @@ void Upload::begin(const v1::PlanOptions& options) {
                       .chords_per_arc = caps_.points_per_plan,
                       .gcode_bytes = caps_.gcode_bytes};
   incoming_.emplace(decode_options(options), caps,
-                    [this](const planning::Segment& segment) { request_.path.segments.push_back(segment); });
+                    [this](const planning::Segment& segment) { uploaded_.request.path.segments.push_back(segment); });
 }
 
-jobs::PlanRequest Upload::finish() {
+Uploaded Upload::finish() {
   if (!incoming_) refuse("options", "the request is empty: send the options first, then the path");
-  static_cast<jobs::RequestRecord&>(request_) = incoming_->finish();
-  static_cast<planning::PathEnds&>(request_.path) = request_.options.ends(incoming_->start());
-  return std::move(request_);
+  jobs::PlanRequest& request = uploaded_.request;
+  static_cast<jobs::RequestRecord&>(request) = incoming_->finish();
+  static_cast<planning::PathEnds&>(request.path) = request.options.ends(incoming_->start());
+  return std::move(uploaded_);
 }
 
 }  // namespace kcs::service

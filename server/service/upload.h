@@ -4,6 +4,7 @@
 #include <kcs/v1/planning.pb.h>
 
 #include <optional>
+#include <string>
 
 #include "server/jobs/fair_queue.h"
 #include "server/jobs/plan_request.h"
@@ -11,6 +12,14 @@
 #include "server/service/incoming_path.h"
 
 namespace kcs::service {
+
+// What a client asks for.
+struct Uploaded {
+  jobs::PlanRequest request;
+  std::string gcode;  // that the path was read from; empty if it came as points
+  jobs::Priority priority = jobs::Priority::kNormal;
+  bool accept_only = false;
+};
 
 // Checks every message as it comes: a request that is going to be refused is refused at once, not after its upload.
 // Both methods throw planning::InvalidInput and jobs::CapExceeded.
@@ -25,17 +34,15 @@ class Upload {
   void add(const v1::CreatePlanRequest& message);
 
   // After the last message.
-  jobs::PlanRequest finish();
-
-  jobs::Priority priority() const { return priority_; }
+  Uploaded finish();
 
  private:
+  void take_manner(const v1::CreatePlanRequest& message);
   void begin(const v1::PlanOptions& options);
 
   const Caps& caps_;
   std::optional<IncomingPath> incoming_;  // once the options came
-  jobs::PlanRequest request_;
-  jobs::Priority priority_ = jobs::Priority::kNormal;
+  Uploaded uploaded_;
 };
 
 }  // namespace kcs::service

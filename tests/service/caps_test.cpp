@@ -83,18 +83,17 @@ TEST(Caps, MessageSize) {
   EXPECT_TRUE(server.create({request(options()), request(zigzag(100))}).status.ok());
 }
 
-TEST(Caps, StoredPlansForgetTheOneThatWasNotUsedForLongest) {
-  TestServer server({.caps = {.stored_plans = 2}});
-  const auto name = [&](int points) {
-    return server.create({request(options()), request(zigzag(points))}).message.name();
-  };
-  const std::string first = name(2);
-  const std::string second = name(3);
-  EXPECT_TRUE(server.get(first).status.ok());
-  const std::string third = name(4);
-  EXPECT_TRUE(server.get(first).status.ok());
-  EXPECT_EQ(server.get(second).status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_TRUE(server.get(third).status.ok());
+TEST(Caps, WhatMemoryHasNoRoomForIsPlannedAgain) {
+  TestServer server({.caps = {.stored_plans = 1}});
+  const std::string name = server.create({request(options()), request(zigzag(300))}).message.name();
+  const auto before = server.stream(setpoints(name, 0.001)).message;
+  ASSERT_TRUE(server.create({request(options()), request(zigzag(3))}).status.ok());
+  const auto after = server.stream(setpoints(name, 0.001));
+  ASSERT_TRUE(after.status.ok()) << after.status.error_message();
+  ASSERT_EQ(after.message.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(after.message[i].SerializeAsString(), before[i].SerializeAsString()) << i;
+  }
 }
 
 TEST(Caps, PlanThatIsLargerThanTheStore) {

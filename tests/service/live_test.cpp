@@ -124,7 +124,7 @@ class Live : public ::testing::Test {
     const LiveAnswer answer = LiveClient(server_).exchange(live(pieces, output));
     ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
     ASSERT_EQ(answer.plans.size(), 1U);
-    EXPECT_EQ(answer.plans[0].SerializeAsString(), stored.message.SerializeAsString());
+    EXPECT_EQ(content(answer.plans[0]), content(stored.message));
     for (int axis = 0; axis < expected[0].position_mm_size(); ++axis) {
       for (const Columns channel : kChannels) {
         EXPECT_EQ(column(answer.setpoints, axis, channel), column(expected, axis, channel));

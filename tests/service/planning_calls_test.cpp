@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,13 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
+
+// Within which planning stops.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr milliseconds kStopping{750};
+#else
+constexpr milliseconds kStopping{50};
+#endif
 
 // Planning is given up long before it would have ended.
 constexpr int kManyPoints = 100'000, kManyPieces = 9;
@@ -94,6 +102,18 @@ TEST(PlanningCalls, DeadlineThatPassesFreesTheThreadThatPlans) {
   EXPECT_TRUE(is_planned_soon(server));
 }
 
+// Waits until the server refuses this one. Asks now and then only: the call that keeps it busy would be refused itself
+// if it came while it does what is asked here.
+::testing::AssertionResult becomes_busy(const std::function<grpc::Status()>& ask, grpc::Status& refused) {
+  const auto end = steady_clock::now() + kDeadline;
+  do {
+    std::this_thread::sleep_for(milliseconds(300));
+    refused = ask();
+    if (!refused.ok()) return ::testing::AssertionSuccess();
+  } while (steady_clock::now() < end);
+  return ::testing::AssertionFailure() << "it takes everything on";
+}
+
 // A server that takes nothing on as long as it plans.
 class BusyOrFree {
  public:
@@ -102,7 +122,9 @@ class BusyOrFree {
   // Asks for another plan every time: one that is kept waits for nothing.
   grpc::Status ask() { return server_.create({request(options()), request(path({0, 0, 10, 0, 10, ++side_}))}).status; }
   bool is_free() { return ask().ok(); }
-  bool is_busy() { return !is_free(); }
+  ::testing::AssertionResult becomes_busy(grpc::Status& refused) {
+    return test::becomes_busy([this] { return ask(); }, refused);
+  }
 
  private:
   TestServer server_{one_thread({.client_waiting = 0})};
@@ -110,12 +132,13 @@ class BusyOrFree {
 };
 
 TEST(PlanningCalls, CancellingFreesTheThreadWithinFiftyMilliseconds) {
-  constexpr std::size_t kCalls = 9;
+  constexpr std::size_t kCalls = 5;
   BusyOrFree it;
+  grpc::Status refused;
   std::vector<steady_clock::duration> times;
   while (times.size() < kCalls) {
     EndlessCall call(it.server());
-    ASSERT_TRUE(eventually([&] { return it.is_busy(); }));
+    ASSERT_TRUE(it.becomes_busy(refused));
     const auto cancelled = steady_clock::now();
     call.cancel();
     ASSERT_TRUE(eventually([&] { return it.is_free(); }));
@@ -123,7 +146,7 @@ TEST(PlanningCalls, CancellingFreesTheThreadWithinFiftyMilliseconds) {
     call.finish();
   }
   std::ranges::sort(times);
-  EXPECT_LE(times[kCalls / 2], milliseconds(50));  // the longest ones tell how busy the machine is
+  EXPECT_LE(times[kCalls / 2], kStopping);  // the longest ones tell how busy the machine is
 }
 
 // A path that PlanLive plans in one go, for seconds.
@@ -155,14 +178,14 @@ TEST(PlanningCalls, CancellingALiveCallFreesItsPlaceWithinFiftyMilliseconds) {
     EXPECT_EQ(call.read_all().status.error_code(), grpc::StatusCode::CANCELLED);
   }
   std::ranges::sort(times);
-  EXPECT_LE(times[kCalls / 2], milliseconds(50));
+  EXPECT_LE(times[kCalls / 2], kStopping);
 }
 
 TEST(PlanningCalls, ClientWithTooManyWaitingIsRefusedAndToldWhenToTryAgain) {
   BusyOrFree it;
   EndlessCall call(it.server());
   grpc::Status status;
-  ASSERT_TRUE(eventually([&] { return !(status = it.ask()).ok(); }));
+  ASSERT_TRUE(it.becomes_busy(status));
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_NE(status.error_message().find("client_waiting = 0"), std::string::npos) << status.error_message();
   const auto delay = retry_delay(status);
@@ -178,10 +201,11 @@ TEST(PlanningCalls, FullQueueTellsWhenToTryAgain) {
   EndlessCall call(server);
   double side = 10;
   grpc::Status status;
-  ASSERT_TRUE(eventually([&] {
-    status = server.create({request(options()), request(path({0, 0, 10, 0, 10, ++side}))}).status;
-    return !status.ok();
-  }));
+  ASSERT_TRUE(becomes_busy(
+      [&] {
+        return server.create({request(options()), request(path({0, 0, 10, 0, 10, ++side}))}).status;
+      },
+      status));
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_NE(status.error_message().find("queue_length = 0"), std::string::npos) << status.error_message();
   EXPECT_TRUE(retry_delay(status));

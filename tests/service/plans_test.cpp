@@ -151,7 +151,7 @@ TEST_F(Plans, NameAndPlanDoNotDependOnHowPointsAreCut) {
   }
   const auto cut = server_.create(pieces);
   ASSERT_TRUE(cut.status.ok()) << cut.status.error_message();
-  EXPECT_EQ(cut.message.SerializeAsString(), expected.message.SerializeAsString());
+  EXPECT_EQ(content(cut.message), content(expected.message));
 }
 
 TEST_F(Plans, NameAndPlanDoNotDependOnHowGcodeIsCut) {
@@ -161,7 +161,7 @@ TEST_F(Plans, NameAndPlanDoNotDependOnHowGcodeIsCut) {
     std::vector<v1::CreatePlanRequest> pieces = {request(options(3))};
     for (std::size_t i = 0; i < kProgram.size(); i += size) pieces.push_back(gcode(kProgram.substr(i, size)));
     ASSERT_TRUE(server_.remove(expected.message.name()).ok());
-    EXPECT_EQ(server_.create(pieces).message.SerializeAsString(), expected.message.SerializeAsString()) << size;
+    EXPECT_EQ(content(server_.create(pieces).message), content(expected.message)) << size;
   }
 }
 
@@ -220,7 +220,7 @@ TEST(PlanningThreads, DoNotChangeAByteOfAPlan) {
     TestServer server({.planning_threads = threads});
     const auto plan = server.create({request(options(3)), gcode(kProgram)});
     ASSERT_TRUE(plan.status.ok()) << plan.status.error_message();
-    std::string these = plan.message.SerializeAsString();
+    std::string these = content(plan.message);
     auto all = setpoints(plan.message.name(), 0.001);
     for (const auto channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK}) {
       all.add_channels(channel);

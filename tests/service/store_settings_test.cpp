@@ -20,7 +20,7 @@ class StoreSettingsFile : public ::testing::Test {
 
   store::StoreSettings load(const std::string& lines) const {
     std::ofstream(file_) << "[store]\n" << lines;
-    return load_config(file_.string()).store;
+    return load_config(file_.string()).server.store;
   }
 
   // What it says against the lines.

@@ -13,6 +13,7 @@ ServerOptions on_loopback(ServerOptions options) {
   static const bool kept = (grpc_init(), true);
   EXPECT_TRUE(kept);
   options.listen = "127.0.0.1:0";
+  if (options.store.database == store::StoreSettings().database) options.store.database = "memory";
   return options;
 }
 
@@ -122,6 +123,13 @@ v1::StreamSetpointsRequest setpoints(const std::string& name, double period) {
   message.set_name(name);
   message.set_period_s(period);
   return message;
+}
+
+std::string content(const v1::Plan& plan) {
+  v1::Plan copy = plan;
+  copy.clear_state();
+  copy.clear_create_time();
+  return copy.SerializeAsString();
 }
 
 std::vector<std::string> violations(const grpc::Status& status) {

@@ -77,6 +77,9 @@ Detail detail(const grpc::Status& status) {
   return found;
 }
 
+// All that a plan says of its path, byte by byte: what is kept of it on a server does not count.
+std::string content(const v1::Plan& plan);
+
 // "field: description" of each violation in a refusal.
 std::vector<std::string> violations(const grpc::Status& status);
 // The refusal is INVALID_ARGUMENT and one of its violations is of just this field.

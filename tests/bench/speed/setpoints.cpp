@@ -45,7 +45,7 @@ client::PointPath points_of(const planning::Toolpath& path) {
 }
 
 void stream(benchmark::State& state) {
-  service::Server server({.listen = "127.0.0.1:0"});
+  service::Server server({.listen = "127.0.0.1:0", .store = {.database = "memory"}});
   client::Planner planner(server.address());
   const client::Machine machine{.axes = 3,
                                 .velocity_mm_s = {500, 500, 500},

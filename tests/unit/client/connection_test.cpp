@@ -20,6 +20,7 @@ class ConnectionTest : public testing::Test {
   // A server that knows the two tokens.
   service::ServerOptions server_options(const std::string& listen = "127.0.0.1:0") const {
     service::ServerOptions options;
+    options.store.database = "memory";
     options.listen = listen;
     options.planning_threads = 1;
     for (const char* token : {"the-first-token", "the-second-token"}) {

@@ -55,7 +55,7 @@ class LiveStreamTest : public testing::Test {
     return "no error";
   }
 
-  service::Server server_{{.listen = "127.0.0.1:0", .planning_threads = 1}};
+  service::Server server_{{.listen = "127.0.0.1:0", .planning_threads = 1, .store = {.database = "memory"}}};
   Planner planner_{server_.address()};
 };
 

@@ -23,6 +23,7 @@ class PlannerTest : public testing::Test {
  protected:
   static service::ServerOptions server_options() {
     service::ServerOptions options;
+    options.store.database = "memory";
     options.listen = "127.0.0.1:0";
     options.planning_threads = 1;
     return options;
