@@ -1,6 +1,7 @@
 #include "client/sdk/messages.h"
 
 #include <fmt/core.h>
+#include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
 #include <string_view>
@@ -9,6 +10,8 @@
 
 namespace kcs::client {
 namespace {
+
+using google::protobuf::util::TimeUtil;
 
 template <typename T>
 std::vector<T> to_vector(const google::protobuf::RepeatedField<T>& field) {
@@ -103,6 +106,34 @@ CornerStrategy from_message(v1::CornerStrategy strategy) {
   }
 }
 
+// Live plans have no state: they are there when they are told.
+PlanState from_message(v1::PlanState state) {
+  switch (state) {
+    case v1::PLAN_STATE_WAITING:
+      return PlanState::kWaiting;
+    case v1::PLAN_STATE_PLANNING:
+      return PlanState::kPlanning;
+    case v1::PLAN_STATE_REFUSED:
+      return PlanState::kRefused;
+    default:
+      return PlanState::kReady;
+  }
+}
+
+v1::PlanState to_message(PlanState state) {
+  switch (state) {
+    case PlanState::kWaiting:
+      return v1::PLAN_STATE_WAITING;
+    case PlanState::kPlanning:
+      return v1::PLAN_STATE_PLANNING;
+    case PlanState::kReady:
+      return v1::PLAN_STATE_READY;
+    case PlanState::kRefused:
+      return v1::PLAN_STATE_REFUSED;
+  }
+  return v1::PLAN_STATE_UNSPECIFIED;
+}
+
 PlanOptions from_message(const v1::PlanOptions& message) {
   PlanOptions options;
   options.machine = {.name = message.machine().name(),
@@ -173,6 +204,30 @@ v1::PlanOptions to_message(const PlanOptions& options) {
   return message;
 }
 
+v1::Priority to_message(Priority priority) {
+  switch (priority) {
+    case Priority::kBatch:
+      return v1::PRIORITY_BATCH;
+    case Priority::kNormal:
+      return v1::PRIORITY_NORMAL;
+    case Priority::kInteractive:
+      return v1::PRIORITY_INTERACTIVE;
+  }
+  return v1::PRIORITY_UNSPECIFIED;
+}
+
+v1::PlanFilter to_message(const PlanFilter& filter) {
+  const auto timestamp = [](Time time) { return TimeUtil::MicrosecondsToTimestamp(time.time_since_epoch().count()); };
+  v1::PlanFilter message;
+  if (filter.machine_name) message.set_machine_name(*filter.machine_name);
+  if (filter.state) message.set_state(to_message(*filter.state));
+  if (filter.created_from) *message.mutable_created_from() = timestamp(*filter.created_from);
+  if (filter.created_before) *message.mutable_created_before() = timestamp(*filter.created_before);
+  if (filter.cycle_time_at_least_s) message.set_cycle_time_at_least_s(*filter.cycle_time_at_least_s);
+  if (filter.cycle_time_at_most_s) message.set_cycle_time_at_most_s(*filter.cycle_time_at_most_s);
+  return message;
+}
+
 v1::StreamSetpointsRequest to_message(const std::string& plan, const StreamOptions& options) {
   v1::StreamSetpointsRequest message;
   message.set_name(plan);
@@ -229,11 +284,20 @@ Plan from_message(const v1::Plan& message) {
   Plan plan{.name = message.name(),
             .options = from_message(message.options()),
             .summary = from_message(message.summary()),
-            .notices = {}};
+            .notices = {},
+            .state = from_message(message.state()),
+            .create_time = Time(std::chrono::microseconds(TimeUtil::TimestampToMicroseconds(message.create_time())))};
   for (const v1::Notice& notice : message.notices()) {
     plan.notices.push_back({notice.line(), notice.text(), notice.count()});
   }
   return plan;
+}
+
+PlanProgress from_message(const v1::PlanProgress& message) {
+  return {.state = from_message(message.state()),
+          .requests_ahead = message.requests_ahead(),
+          .segment_count = message.segment_count(),
+          .segments_planned = message.segments_planned()};
 }
 
 Corner from_message(const v1::Corner& message) {

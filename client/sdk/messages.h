@@ -5,6 +5,7 @@
 
 #include "client/sdk/live_stream.h"
 #include "client/sdk/plan.h"
+#include "client/sdk/plan_list.h"
 #include "client/sdk/setpoint_stream.h"
 #include "kcs/v1/planning.pb.h"
 
@@ -16,6 +17,8 @@ inline constexpr std::size_t kPointsPerMessage = 8192;
 
 v1::PlanOptions to_message(const PlanOptions& options);
 v1::LiveOutput to_message(const LiveOptions& options);
+v1::Priority to_message(Priority priority);
+v1::PlanFilter to_message(const PlanFilter& filter);
 v1::StreamSetpointsRequest to_message(const std::string& plan, const StreamOptions& options);
 
 // How many points a path with `axes` numbers a point has. Throws Error if its arrays do not fit them.
@@ -25,6 +28,7 @@ std::size_t count_points(const PointPath& path, std::size_t axes);
 v1::PathChunk to_message(const PointPath& path, std::size_t axes, std::size_t first, std::size_t count);
 
 Plan from_message(const v1::Plan& message);
+PlanProgress from_message(const v1::PlanProgress& message);
 Corner from_message(const v1::Corner& message);
 
 // Fills `batch`, reusing its memory.

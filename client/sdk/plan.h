@@ -1,6 +1,7 @@
 // What is asked of a plan, and what comes back. proto/kcs/v1/planning.proto says every field in full.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,13 @@ enum class CornerStrategy {
   kOverlapping,    // passed within one smooth motion through many corners; only reported, cannot be asked for
 };
 
+// Who goes first where requests of one client wait for each other.
+enum class Priority {
+  kBatch,  // when nothing else of this client waits
+  kNormal,
+  kInteractive,  // before everything else of this client: somebody looks at a screen
+};
+
 struct PlanOptions {
   Machine machine;
   std::optional<double> tolerance_mm;  // none: the server's default, 0.01 mm
@@ -39,6 +47,11 @@ struct PlanOptions {
   double start_speed_mm_s = 0;
   double start_acceleration_mm_s2 = 0;
   double end_speed_mm_s = 0;
+  // No part of the plan: how it is made. What a server gives back as the options of a plan leaves them out.
+  Priority priority = Priority::kNormal;
+  // The server answers as soon as the request is safely kept, and plans it even if this client goes away; the plan that
+  // comes back has no summary yet unless it was made before. Planner::await() waits for it.
+  bool accept_only = false;
 };
 
 // The tool stops on a point of a path.
@@ -89,12 +102,24 @@ struct Notice {
   std::uint64_t count = 0;  // how often it came up
 };
 
-// A plan that a server keeps.
+// What has become of a request.
+enum class PlanState {
+  kWaiting,   // for its turn
+  kPlanning,  // is being planned
+  kReady,     // is there, with its summary
+  kRefused,   // after it was accepted without waiting for it: Planner::get() says why
+};
+
+using Time = std::chrono::sys_time<std::chrono::microseconds>;
+
+// A plan that a server keeps. Of one that is not kReady: name, state and time alone.
 struct Plan {
   std::string name;     // "plans/…": asks for its setpoints and corners
   PlanOptions options;  // as they were used, defaults filled in
   Summary summary;
   std::vector<Notice> notices;
+  PlanState state = PlanState::kReady;
+  Time create_time{};  // when the server accepted the request for the first time; of a live plan none
 };
 
 // One joint of the path at which the direction changes or the tool stops. Of a kOverlapping one: where the tool is

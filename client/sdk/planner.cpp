@@ -48,8 +48,11 @@ class Planner::Link {
     const auto writer = stub(stop).CreatePlan(&context, &plan);
     v1::CreatePlanRequest request;
     *request.mutable_options() = to_message(options);
+    request.set_priority(to_message(options.priority));
+    request.set_accept_only(options.accept_only);
     // A write fails when the server has refused the request already; Finish() then says why.
-    for (bool open = writer->Write(request); open && next_piece(request);) open = writer->Write(request);
+    bool open = writer->Write(request);
+    for (request.Clear(); open && next_piece(request);) open = writer->Write(request);
     writer->WritesDone();
     check(writer->Finish());
     return from_message(plan);
@@ -146,6 +149,36 @@ Plan Planner::get(const std::string& name, const std::stop_token& stop) {
   link_->set_deadline(context);
   link_->check(stub.GetPlan(&context, request, &plan));
   return from_message(plan);
+}
+
+PlanPage Planner::list(const PlanFilter& filter, const std::string& page_token, int page_size,
+                       const std::stop_token& stop) {
+  v1::ListPlansRequest request;
+  *request.mutable_filter() = to_message(filter);
+  request.set_page_token(page_token);
+  request.set_page_size(page_size);
+  v1::ListPlansResponse response;
+  v1::PlanningService::Stub& stub = link_->stub(stop);
+  CallContext context(stop);
+  link_->set_deadline(context);
+  link_->check(stub.ListPlans(&context, request, &response));
+  PlanPage page{.plans = {}, .next_page_token = response.next_page_token()};
+  for (const v1::Plan& plan : response.plans()) page.plans.push_back(from_message(plan));
+  return page;
+}
+
+Plan Planner::await(const std::string& name, const std::function<void(const PlanProgress&)>& on_progress,
+                    const std::stop_token& stop) {
+  v1::WatchPlanRequest request;
+  request.set_name(name);
+  v1::PlanningService::Stub& stub = link_->stub(stop);
+  CallContext context(stop);
+  const auto reader = stub.WatchPlan(&context, request);
+  for (v1::PlanProgress progress; reader->Read(&progress);) {
+    if (on_progress) on_progress(from_message(progress));
+  }
+  link_->check(reader->Finish());
+  return get(name, stop);
 }
 
 void Planner::remove(const std::string& name, const std::stop_token& stop) {

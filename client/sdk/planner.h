@@ -7,6 +7,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <stop_token>
@@ -18,6 +19,7 @@
 #include "client/sdk/live_stream.h"
 #include "client/sdk/machine.h"
 #include "client/sdk/plan.h"
+#include "client/sdk/plan_list.h"
 #include "client/sdk/setpoint_stream.h"
 
 namespace grpc {
@@ -59,6 +61,15 @@ class Planner {
 
   // A plan that the server keeps. Throws Error ("NOT_FOUND") if it does not.
   Plan get(const std::string& name, const std::stop_token& stop = {});
+
+  // One page of the caller's plans, 1 to 1000 of them, those after the page that gave `page_token` (empty: the first).
+  PlanPage list(const PlanFilter& filter = {}, const std::string& page_token = {}, int page_size = 100,
+                const std::stop_token& stop = {});
+
+  // Waits until a plan is there, and returns it. Tells `on_progress`, if there is one, how far it has come. Throws
+  // Error with the reason if its request is refused.
+  Plan await(const std::string& name, const std::function<void(const PlanProgress&)>& on_progress = {},
+             const std::stop_token& stop = {});
 
   // Makes the server forget a plan. Throws Error ("NOT_FOUND") if it does not keep it.
   void remove(const std::string& name, const std::stop_token& stop = {});

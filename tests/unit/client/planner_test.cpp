@@ -63,6 +63,53 @@ TEST_F(PlannerTest, PlansPoints) {
   EXPECT_EQ(corners[0].point_mm, (std::vector<double>{10, 0}));
 }
 
+TEST_F(PlannerTest, ListsPlansPageByPage) {
+  std::vector<std::string> made;
+  for (const double length : {10.0, 20.0, 30.0}) {
+    made.insert(made.begin(), planner_.plan_points({.points_mm = {0, 0, length, 0}}, options()).name);
+  }
+  const PlanPage first = planner_.list({}, {}, 2);
+  ASSERT_EQ(first.plans.size(), 2);
+  EXPECT_EQ(first.plans[0].name, made[0]);
+  EXPECT_EQ(first.plans[1].name, made[1]);
+  EXPECT_GE(first.plans[0].create_time, first.plans[1].create_time);
+  EXPECT_EQ(first.plans[0].state, PlanState::kReady);
+  EXPECT_GT(first.plans[0].summary.cycle_time_s, 0.3);
+  const PlanPage last = planner_.list({}, first.next_page_token, 2);
+  ASSERT_EQ(last.plans.size(), 1);
+  EXPECT_EQ(last.plans[0].name, made[2]);
+  EXPECT_EQ(last.next_page_token, "");
+
+  EXPECT_EQ(planner_.list({.cycle_time_at_least_s = first.plans[1].summary.cycle_time_s}).plans.size(), 2);
+  EXPECT_EQ(planner_.list({.machine_name = "another"}).plans.size(), 0);
+  EXPECT_EQ(planner_.list({.state = PlanState::kRefused}).plans.size(), 0);
+  EXPECT_EQ(planner_.list({.created_before = last.plans[0].create_time}).plans.size(), 0);
+  EXPECT_THROW(planner_.list({.state = PlanState::kReady}, first.next_page_token), Error);
+}
+
+TEST_F(PlannerTest, AwaitsWhatWasAcceptedOnly) {
+  PlanOptions later = options();
+  later.accept_only = true;
+  later.priority = Priority::kBatch;
+  PointPath zigzag;
+  for (int i = 0; i < 4000; ++i) {
+    zigzag.points_mm.push_back(i % 2 == 0 ? 0 : 3);
+    zigzag.points_mm.push_back(i);
+  }
+  const Plan accepted = planner_.plan_points(zigzag, later);
+  EXPECT_NE(accepted.state, PlanState::kReady) << "4,000 corners take longer than the answer";
+  PlanProgress last;
+  const Plan plan = planner_.await(accepted.name, [&last](const PlanProgress& progress) {
+    EXPECT_GE(progress.segments_planned, last.segments_planned);
+    last = progress;
+  });
+  EXPECT_EQ(last.state, PlanState::kReady);
+  EXPECT_EQ(last.segments_planned, 3999);
+  EXPECT_EQ(plan.name, accepted.name);
+  EXPECT_EQ(plan.state, PlanState::kReady);
+  EXPECT_GT(plan.summary.cycle_time_s, 100);
+}
+
 TEST_F(PlannerTest, StrategiesArriveThereAndComeBack) {
   PlanOptions asked = options();
   asked.tolerance_kind = ToleranceKind::kCornerDistance;
