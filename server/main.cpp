@@ -26,6 +26,7 @@ struct Flags {
   std::string config_file;
   std::optional<std::string> listen;
   std::optional<std::size_t> threads;
+  std::optional<std::string> database;
   std::optional<std::string> http_listen;
   std::optional<std::string> log_level;
   std::optional<std::string> log_format;
@@ -38,6 +39,7 @@ Config settings(const Flags& flags) {
   Config config = flags.config_file.empty() ? Config() : kcs::service::load_config(flags.config_file);
   if (flags.listen) config.server.listen = *flags.listen;
   if (flags.threads) config.server.planning_threads = *flags.threads;
+  if (flags.database) config.server.store.database = *flags.database;
   if (flags.http_listen) config.server.observe.http_listen = *flags.http_listen;
   if (flags.log_level) config.log_level = kcs::service::parse_log_level(*flags.log_level);
   if (flags.log_format) config.server.observe.log_format = kcs::service::parse_log_format(*flags.log_format);
@@ -101,6 +103,8 @@ int main(int argc, char** argv) {
   app.add_option("--listen", flags.listen, "HOST:PORT (port 0: any free one), unix:PATH or systemd [127.0.0.1:50551]");
   app.add_option("--threads", flags.threads, "Threads that plan; 0: one for each processor [0]")
       ->check(CLI::Range(1024));
+  app.add_option("--database", flags.database,
+                 "sqlite, sqlite:FILE, postgresql:CONNINFO or memory: where requests and summaries are kept [sqlite]");
   app.add_option("--http-listen", flags.http_listen,
                  "HOST:PORT of /metrics, /healthz and /readyz (port 0: any free one); empty: none []");
   app.add_option("--log-level", flags.log_level, "debug, info, warning, error or off [info]");

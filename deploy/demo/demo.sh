@@ -12,7 +12,7 @@ mkdir -p "$out"
 step() { printf '\n== %s\n' "$*"; }
 
 step "Starting kcsd on loopback"
-"$programs/server/kcsd" --listen 127.0.0.1:0 >"$out/kcsd.out" 2>"$out/kcsd.log" &
+"$programs/server/kcsd" --listen 127.0.0.1:0 --database memory >"$out/kcsd.out" 2>"$out/kcsd.log" &
 server=$!
 trap 'kill "$server" 2>/dev/null; wait "$server" 2>/dev/null || true' EXIT
 for _ in {1..100}; do

@@ -50,8 +50,10 @@ class Gateway : public testing::Test {
   // One socket for all servers of a test: one that is started again is found where it was.
   std::string address() const { return "unix:" + (folder_ / "socket").string(); }
 
-  std::unique_ptr<ChildProcess> start_server() const {
-    auto server = std::make_unique<ChildProcess>(std::vector<std::string>{KCSD, "--listen", address()});
+  // database: "memory", or what a restarted server finds again.
+  std::unique_ptr<ChildProcess> start_server(const std::string& database = "memory") const {
+    auto server =
+        std::make_unique<ChildProcess>(std::vector<std::string>{KCSD, "--listen", address(), "--database", database});
     const std::string greeting = server->read_line();
     if (!greeting.starts_with("kcsd listens on ")) throw std::runtime_error("kcsd said \"" + greeting + "\"");
     return server;
@@ -207,6 +209,22 @@ TEST_F(Gateway, ServerThatHangsIsReportedAsStarvation) {
   const auto report = report_of(*gateway, kStarved);
   server->send_signal(SIGCONT);
   EXPECT_NE(report["setpoints_ended"].get<std::string>().find("sent nothing"), std::string::npos) << report;
+}
+
+TEST_F(Gateway, PlanThatARestartedServerKeptIsTakenUpWithoutItsProgram) {
+  const std::string database = "sqlite:" + (folder_ / "plans.db").string();
+  auto server = start_server(database);
+  const auto planned = play(with({long_program(), "--fast"}));
+  const fs::path recording = folder_ / "run.csv";
+  const auto gateway =
+      start_gateway({"--plan", planned["plan"], "--buffer", "2", "--json", "--record", recording.string()});
+  wait_until_moving(recording);
+  crash(*server);
+  server = start_server(database);
+  const auto report = report_of(*gateway, 0);
+  EXPECT_EQ(report["end"], "complete");
+  EXPECT_EQ(report["resumptions"], 1);
+  EXPECT_EQ(report["ticks"], planned["ticks"]);
 }
 
 TEST_F(Gateway, PlanThatARestartedServerForgotCannotBeTakenUpWithoutItsProgram) {

@@ -203,7 +203,7 @@ TEST_F(Kcsctl, SpeedsAtTheEndsAreTaken) {
 // As Ctrl-C does it. `env` sees to it that kcsctl listens to it, however the tests were started.
 TEST_F(Kcsctl, AnInterruptedStreamLeavesNothingBehindAndIsOverForTheServer) {
   std::ofstream(path("far.ngc")) << "G1 X100000 F60\n";  // more than a day: ten thousand million setpoints
-  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0"});
+  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0"});
   const std::string greeting = kcsd.read_line();
   ChildProcess kcsctl({"/usr/bin/env", "--default-signal=INT", KCSCTL, "stream", path("far.ngc"), "-o", path("out.csv"),
                        "--period", "1e-5", "--server", greeting.substr(greeting.rfind(' ') + 1)});
@@ -250,7 +250,7 @@ TEST_F(Kcsctl, AMissingServerIsNamedWithTheRemedy) {
 }
 
 TEST_F(Kcsctl, TheServiceInsideAndARealServerGiveTheSameBytes) {
-  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0"});
+  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0"});
   const std::string greeting = kcsd.read_line();
   const std::string address = greeting.substr(greeting.rfind(' ') + 1);
   const std::vector<std::vector<std::string>> commands = {

@@ -102,8 +102,8 @@ class NotifySocket {
 
 TEST(KcsdUnderSystemd, TellsWhenItIsReadyAliveAndStopping) {
   const NotifySocket manager;
-  ChildProcess kcsd(
-      {"/usr/bin/env", "NOTIFY_SOCKET=" + manager.path(), "WATCHDOG_USEC=200000", KCSD, "--listen", "127.0.0.1:0"});
+  ChildProcess kcsd({"/usr/bin/env", "NOTIFY_SOCKET=" + manager.path(), "WATCHDOG_USEC=200000", KCSD, "--database",
+                     "memory", "--listen", "127.0.0.1:0"});
   EXPECT_EQ(manager.receive(), "READY=1\nSTATUS=serves on " + address_of(kcsd));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(manager.receive(), "WATCHDOG=1");
   kcsd.send_signal(SIGTERM);
@@ -136,7 +136,8 @@ class ListeningSocket {
   std::vector<std::string> command() const {
     return {"/bin/bash", "-c",
             "exec 3<&" + std::to_string(socket_) +
-                "; export LISTEN_PID=$$ LISTEN_FDS=1 LISTEN_FDNAMES=kcsd.socket; exec \"$0\" --listen systemd",
+                "; export LISTEN_PID=$$ LISTEN_FDS=1 LISTEN_FDNAMES=kcsd.socket; exec \"$0\" --database memory "
+                "--listen systemd",
             KCSD};
   }
 
@@ -171,13 +172,13 @@ TEST(KcsdUnderSystemd, ClientThatComesBetweenTwoServersWaitsForTheNext) {
 }
 
 TEST(KcsdUnderSystemd, SaysWhatIsMissingWithoutASocket) {
-  ChildProcess kcsd({KCSD, "--listen", "systemd"});
+  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "systemd"});
   EXPECT_EQ(kcsd.wait(), 1);
   EXPECT_NE(kcsd.errors().find("start the program by its .socket unit"), std::string::npos) << kcsd.errors();
 }
 
 TEST(KcsdUnderMonitoring, ShowsItsFiguresAndItsState) {
-  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0", "--http-listen", "127.0.0.1:0"});
+  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--http-listen", "127.0.0.1:0"});
   EXPECT_EQ(ask(address_of(kcsd)), grpc::StatusCode::NOT_FOUND);
   httplib::Client client("http://" + http_address_of(kcsd));
   client.set_read_timeout(kDeadline);
@@ -195,13 +196,14 @@ TEST(KcsdUnderMonitoring, ShowsItsFiguresAndItsState) {
 
 TEST(KcsdUnderMonitoring, PortInUseIsSaidPlainly) {
   const ListeningSocket taken;
-  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0", "--http-listen", taken.address()});
+  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--http-listen", taken.address()});
   EXPECT_EQ(kcsd.wait(), 1);
   EXPECT_NE(kcsd.errors().find("cannot serve HTTP on " + taken.address()), std::string::npos) << kcsd.errors();
 }
 
 TEST(KcsdLog, IsJsonLineByLineIfAskedFor) {
-  ChildProcess kcsd({KCSD, "--listen", "127.0.0.1:0", "--log-format", "json", "--log-level", "debug"});
+  ChildProcess kcsd(
+      {KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-format", "json", "--log-level", "debug"});
   const std::string address = address_of(kcsd);
   EXPECT_EQ(ask(address), grpc::StatusCode::NOT_FOUND);
   // What speaks no gRPC makes the library write lines of its own.
@@ -226,7 +228,7 @@ TEST(KcsdLog, IsJsonLineByLineIfAskedFor) {
 TEST(KcsdChannelz, TellsWhoIsConnectedIfAskedFor) {
   const std::string file = ::testing::TempDir() + "kcsd-channelz-" + std::to_string(getpid()) + ".toml";
   std::ofstream(file) << "[observe]\nchannelz = true\n";
-  ChildProcess kcsd({KCSD, "--config", file, "--listen", "127.0.0.1:0"});
+  ChildProcess kcsd({KCSD, "--database", "memory", "--config", file, "--listen", "127.0.0.1:0"});
   const std::string address = address_of(kcsd);
   unlink(file.c_str());
   // In raw bytes, as its messages are in no header of the libraries.

@@ -55,7 +55,7 @@ class Kcsd {
   }
 
   static std::vector<std::string> command(const std::vector<std::string>& flags) {
-    std::vector<std::string> command = {KCSD, "--listen", "127.0.0.1:0"};
+    std::vector<std::string> command = {KCSD, "--database", "memory", "--listen", "127.0.0.1:0"};
     command.insert(command.end(), flags.begin(), flags.end());
     return command;
   }

@@ -81,7 +81,8 @@ class Kcsd {
   static std::vector<std::string> command(const Folder& folder, const std::string& config, const std::string& host,
                                           const std::vector<std::string>& flags) {
     std::vector<std::string> command = {
-        KCSD, "--config", folder.write("kcsd.toml", config), "--listen", host + ":0", "--log-level", "debug"};
+        KCSD,       "--database", "memory",      "--config", folder.write("kcsd.toml", config),
+        "--listen", host + ":0",  "--log-level", "debug"};
     command.insert(command.end(), flags.begin(), flags.end());
     return command;
   }
@@ -91,12 +92,13 @@ class Kcsd {
 };
 
 TEST_F(Security, KcsdRefusesToListenToTheNetworkWithoutTls) {
-  const Result refused = run({KCSD, "--listen", "0.0.0.0:0"});
+  const Result refused = run({KCSD, "--database", "memory", "--listen", "0.0.0.0:0"});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_EQ(refused.output, "");
   EXPECT_NE(refused.errors.find("does not listen on 0.0.0.0:0 without TLS"), std::string::npos) << refused.errors;
   EXPECT_NE(refused.errors.find("--insecure"), std::string::npos) << refused.errors;
-  const Result open = run({KCSD, "--listen", "0.0.0.0:0", "--config", folder_.write("tls.toml", tls_settings())});
+  const Result open = run(
+      {KCSD, "--database", "memory", "--listen", "0.0.0.0:0", "--config", folder_.write("tls.toml", tls_settings())});
   EXPECT_EQ(open.exit_code, 1);
   EXPECT_NE(open.errors.find("to everybody"), std::string::npos) << open.errors;
 }
@@ -128,7 +130,7 @@ TEST_F(Security, SettingsAreRefusedWithFileAndLine) {
                          Bad{"[[certificates]]\nowner = \"cam\"\nroles = [\"plan\"]\n", 1, "name"},
                          Bad{"[connections]\nkeepalive_s = 0\n", 2, "seconds"}}) {
     const std::string file = folder_.write("bad.toml", bad.text);
-    const Result refused = run({KCSD, "--config", file, "--listen", "127.0.0.1:0"});
+    const Result refused = run({KCSD, "--database", "memory", "--config", file, "--listen", "127.0.0.1:0"});
     EXPECT_EQ(refused.exit_code, 1) << bad.text;
     EXPECT_NE(refused.errors.find(file + ":" + std::to_string(bad.line) + ": "), std::string::npos) << refused.errors;
     EXPECT_NE(refused.errors.find(bad.hint), std::string::npos) << refused.errors;

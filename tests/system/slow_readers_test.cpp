@@ -81,7 +81,7 @@ class SlowReaders : public ::testing::Test {
     return before;
   }
 
-  ChildProcess kcsd_{{KCSD, "--listen", "127.0.0.1:0", "--log-level", "off"}};
+  ChildProcess kcsd_{{KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-level", "off"}};
   std::string address_;
   std::unique_ptr<v1::PlanningService::Stub> stub_;
   v1::StreamSetpointsRequest request_;

@@ -8,7 +8,7 @@
 
 namespace kcs::bench {
 
-ServerProcess::ServerProcess() : process_({KCSD, "--listen", "127.0.0.1:0", "--log-level", "warning"}) {
+ServerProcess::ServerProcess() : process_({KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-level", "warning"}) {
   const std::string greeting = process_.read_line();
   const std::size_t blank = greeting.rfind(' ');
   if (blank == std::string::npos) throw std::runtime_error("kcsd does not start: " + process_.errors());
