@@ -14,8 +14,8 @@ struct Caps {
   std::uint64_t gcode_bytes = 64 << 20;
   // One message of a client. gRPC's own default, which its clients keep to as well.
   std::uint64_t message_bytes = 4 << 20;
-  // Trajectories kept in memory for the streams. Beyond either number the one that was not used for longest is forgotten,
-  // to be planned again from its request in the store.
+  // Trajectories kept in memory for the streams. Beyond either number the one that was not used for longest is
+  // forgotten, to be planned again from its request in the store.
   std::uint64_t stored_plans = 1'000;
   std::uint64_t stored_bytes = std::uint64_t{2} << 30;
   // Requests that wait for a planning thread, and those of one client among them. Each holds its whole tool path, and
@@ -24,13 +24,16 @@ struct Caps {
   std::uint64_t client_waiting = 64;
   // Threads that plan for one client at the same time; 0: all. Clients take turns anyhow.
   std::uint64_t client_running = 0;
-  // Calls of CreatePlan under way at the same time; each may hold a whole tool path.
+  // Calls of CreatePlan under way at the same time; each may hold a whole tool path, and its request as it is stored.
   std::uint64_t uploads = 128;
+  std::uint64_t client_uploads = 64;  // of one client among them
   // Calls of StreamSetpoints and DescribeCorners under way at the same time; each holds a thread and one batch on its
   // way: 0.2 MB at the default batch size and three axes, 6 MB for the largest batch with all channels.
   std::uint64_t streams = 1'000;
+  std::uint64_t client_streams = 1'000;  // of one client among them
   // Calls of PlanLive under way at the same time; each holds a thread, which plans, and a part of the path: some MB.
   std::uint64_t live_streams = 64;
+  std::uint64_t client_live_streams = 32;  // of one client among them
 };
 
 }  // namespace kcs::service

@@ -28,8 +28,11 @@ Keys cap_keys(Caps& caps) {
           {"client_waiting", whole(caps.client_waiting, 0, kMany)},
           {"client_running", whole(caps.client_running, 0, kMany)},
           {"uploads", whole(caps.uploads, 1, kMostCalls)},
+          {"client_uploads", whole(caps.client_uploads, 1, kMostCalls)},
           {"streams", whole(caps.streams, 1, kMostCalls)},
-          {"live_streams", whole(caps.live_streams, 1, kMostCalls)}};
+          {"client_streams", whole(caps.client_streams, 1, kMostCalls)},
+          {"live_streams", whole(caps.live_streams, 1, kMostCalls)},
+          {"client_live_streams", whole(caps.client_live_streams, 1, kMostCalls)}};
 }
 
 Keys server_keys(Config& config) {

@@ -59,9 +59,9 @@ PlanningService::PlanningService(Plans& plans, const Caps& caps, const AccessCon
       caps_(caps),
       access_(access),
       observation_(observation),
-      uploads_("uploads", caps.uploads),
-      streams_("streams", caps.streams),
-      live_streams_("live_streams", caps.live_streams) {
+      uploads_({"uploads", caps.uploads}, {"client_uploads", caps.client_uploads}),
+      streams_({"streams", caps.streams}, {"client_streams", caps.client_streams}),
+      live_streams_({"live_streams", caps.live_streams}, {"client_live_streams", caps.client_live_streams}) {
   using Create = grpc::internal::ClientStreamingHandler<PlanningService, grpc::ByteBuffer, v1::Plan>;
   using Live = grpc::internal::BidiStreamingHandler<PlanningService, grpc::ByteBuffer, v1::PlanLiveResponse>;
   handle("CreatePlan", std::make_unique<Create>(std::mem_fn(&PlanningService::create_plan), this));
@@ -92,7 +92,7 @@ grpc::Status PlanningService::answer(std::string_view method, grpc::ServerContex
 
 grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan) {
   return answer("CreatePlan", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
-    const Gate::Pass pass(uploads_);
+    const Gate::Pass pass(uploads_, caller.client);
     Upload upload(caps_);
     grpc::ByteBuffer bytes;
     while (reader->Read(&bytes)) upload.add(parse<v1::CreatePlanRequest>(bytes));
@@ -106,8 +106,8 @@ grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadRe
 }
 
 grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream* stream) {
-  return answer("PlanLive", *context, [&](CallRecord& call, const Caller& /*caller*/) -> grpc::Status {
-    const Gate::Pass pass(live_streams_);
+  return answer("PlanLive", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
+    const Gate::Pass pass(live_streams_, caller.client);
     const CancelWatch::Call watched(cancel_watch_, *context);
     const auto send = [&](const v1::PlanLiveResponse& response) {
       if (!stream->Write(response)) throw Cancelled();
@@ -145,7 +145,7 @@ grpc::Status PlanningService::WatchPlan(grpc::ServerContext* context, const v1::
                                         grpc::ServerWriter<v1::PlanProgress>* writer) {
   return answer("WatchPlan", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
-    const Gate::Pass pass(streams_);
+    const Gate::Pass pass(streams_, caller.client);
     plans_.watch(caller, request->name(), [writer](const v1::PlanProgress& progress) {
       if (!writer->Write(progress)) throw Cancelled();
     });
@@ -166,7 +166,7 @@ grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, cons
                                               grpc::ServerWriter<v1::SetpointBatch>* writer) {
   return answer("StreamSetpoints", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
-    const Gate::Pass pass(streams_);
+    const Gate::Pass pass(streams_, caller.client);
     SetpointStream stream(plans_.load(caller, request->name()), *request);
     Pace pace(*request, end_calls_.get_token(), [context] { return context->IsCancelled(); });
     v1::SetpointBatch batch;
@@ -183,7 +183,7 @@ grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* context, cons
                                               grpc::ServerWriter<v1::CornerBatch>* writer) {
   return answer("DescribeCorners", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
-    const Gate::Pass pass(streams_);
+    const Gate::Pass pass(streams_, caller.client);
     const jobs::PlanPointer kept = plans_.load(caller, request->name());
     const planning::CornerList& corners = kept->plan.corners;
     for (std::size_t first = 0; first < corners.size(); first += kCornersPerBatch) {
