@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -63,11 +64,24 @@ v1::Plan Plans::create(const Caller& caller, Uploaded uploaded) {
                        v1::PLAN_STATE_READY);
 }
 
-// The desk may be done before the request is in the database: then the caretaker writes down the outcome.
 v1::Plan Plans::accept(const Caller& caller, const store::Request& request, jobs::Ticket ticket) {
   const store::Record record = archive_.accept(caller.identity.owner, request);
-  if (record.to_plan) ticket.go_on_alone();
+  if (record.to_plan) {
+    ticket.go_on_alone();
+    // A short one may have been done before the request was in the database: nothing was written down of it then.
+    if (ticket.wait(kLook)) write_down(request.name, ticket);
+  }
   return encode_record(require_not_refused(record), state_of(request.name));
+}
+
+void Plans::write_down(const std::string& name, const jobs::Ticket& done) {
+  try {
+    archive_.finish(*done.plan());
+  } catch (const store::StoreError&) {
+    throw;
+  } catch (...) {
+    archive_.refuse({.name = name}, std::current_exception());
+  }
 }
 
 v1::Plan Plans::get(const Caller& caller, const std::string& name) {
@@ -105,8 +119,8 @@ void Plans::watch(const Caller& caller, const std::string& name, const SendProgr
       v1::PlanProgress waiting;
       waiting.set_state(v1::PLAN_STATE_WAITING);
       send(waiting);
+      pause(caller, kDatabaseLook);
     }
-    pause(caller, kDatabaseLook);
   }
 }
 

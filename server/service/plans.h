@@ -41,6 +41,8 @@ class Plans {
 
  private:
   v1::Plan accept(const Caller& caller, const store::Request& request, jobs::Ticket ticket);
+  // What came of an accepted request; nothing if that is known already.
+  void write_down(const std::string& name, const jobs::Ticket& done);
   store::Record find(const Caller& caller, const std::string& name);
   // What the desk knows of a plan without outcome.
   v1::PlanState state_of(const std::string& name);

@@ -1,6 +1,7 @@
 // Requests that are accepted first and planned later, whoever is there by then.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -81,6 +82,20 @@ TEST(AcceptOnly, IsWhatItTakesForAPlanToOutliveItsClient) {
   call.TryCancel();
   EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::CANCELLED);
   EXPECT_EQ(list(server).message.plans_size(), 1) << "what nobody waited for is kept";
+}
+
+TEST(AcceptOnly, ShortPlansAndRefusalsAreThereSoon) {
+  TestServer server;
+  const auto began = std::chrono::steady_clock::now();
+  for (int i = 1; i <= 50; ++i) {
+    const auto accepted = server.create({accept_only(options()), request(path({0, 0, 10.0 + i, 0}))});
+    ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
+    wait_until_ready(server, accepted.message.name());
+    const auto refused = server.create({accept_only(too_fast_at_the_end()), request(path({0, 0, 1e-3 * i, 0}))});
+    ASSERT_TRUE(refused.status.ok()) << refused.status.error_message();
+    ASSERT_TRUE(eventually([&] { return !server.get(refused.message.name()).status.ok(); }));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5));
 }
 
 TEST(AcceptOnly, SaysWhyARequestWasRefusedUntilItIsDeleted) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +34,27 @@ TEST(WatchPlan, TellsOfProgressUntilThePlanIsReady) {
     return step.state() == v1::PLAN_STATE_PLANNING && step.segments_planned() > 0 &&
            step.segments_planned() < last.segment_count();
   })) << "nothing is told between the beginning and the end";
+}
+
+TEST(WatchPlan, EndsWithTheCallThatWaitsForThePlan) {
+  using std::chrono::steady_clock;
+  std::vector<steady_clock::duration> later;
+  for (int round = 0; round < 3; ++round) {  // the longest time tells how busy the machine is
+    TestServer server({.planning_threads = 1});
+    const auto accepted = server.create({accept_only(options()), request(long_path())});
+    ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
+    steady_clock::time_point watched;
+    std::thread watcher([&] {
+      EXPECT_TRUE(watch(server, accepted.message.name()).status.ok());
+      watched = steady_clock::now();
+    });
+    EXPECT_TRUE(server.create({request(options()), request(long_path())}).status.ok());
+    const auto made = steady_clock::now();
+    watcher.join();
+    later.push_back(watched - made);
+  }
+  std::ranges::sort(later);
+  EXPECT_LT(later[1], std::chrono::milliseconds(400));
 }
 
 TEST(WatchPlan, TellsHowManyGoBefore) {
