@@ -16,6 +16,8 @@ namespace {
 constexpr std::chrono::seconds kRetry{1};
 constexpr std::chrono::minutes kSweep{1};
 constexpr int kRoundsPerLease = 4;  // the store asks for three
+// However long the lease: so soon it is seen that the database has gone, or that there is something to take up.
+constexpr std::chrono::seconds kLongestPause{5};
 
 constexpr const char* kNotReached = "the store is not reached";
 
@@ -45,8 +47,7 @@ void Caretaker::stop() {
 void Caretaker::work(const std::stop_token& stop) {
   bool answers = readiness_.obstacle().empty();
   while (!stop.stop_requested()) {
-    const std::chrono::milliseconds pause =
-        answers ? lease_ / kRoundsPerLease : std::min<std::chrono::milliseconds>(kRetry, lease_ / kRoundsPerLease);
+    const auto pause = std::min<std::chrono::milliseconds>(answers ? kLongestPause : kRetry, lease_ / kRoundsPerLease);
     std::unique_lock lock(mutex_);
     if (never_.wait_for(lock, stop, pause, [] { return false; }) || stop.stop_requested()) return;
     try {
