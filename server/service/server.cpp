@@ -121,7 +121,8 @@ struct Server::Parts {
   std::unique_ptr<grpc::Server> server;
   std::unique_ptr<SocketAcceptor> acceptor;  // null unless systemd listens
   std::mutex stopping;
-  std::future<void> down;  // of the server, once it is told to stop
+  // Once it is told to stop: what is not planned yet, and the gRPC server.
+  std::future<void> given_back, down;
 };
 
 Server::Server(const ServerOptions& options) {
@@ -192,7 +193,7 @@ void Server::stop(std::chrono::milliseconds grace) {
   // A stream that is not yet at its end can go on elsewhere; that it must takes no time to say.
   parts_->service.end_calls();
   parts_->wait_until_idle(std::chrono::steady_clock::now() + kFarewell);
-  parts_->caretaker->stop();
+  parts_->given_back = std::async(std::launch::async, [caretaker = &*parts_->caretaker] { caretaker->stop(); });
   // Only now, for gRPC closes a connection together with its last call, and what the client has not yet read by then is
   // lost. Without a call it waits until the client has confirmed that it read everything; an idle or a silent one may
   // never do so.
@@ -200,7 +201,9 @@ void Server::stop(std::chrono::milliseconds grace) {
   parts_->down = std::async(std::launch::async, [server = parts_->server.get(), linger] {
     server->Shutdown(std::chrono::system_clock::now() + linger);
   });
-  parts_->down.wait_for(linger + kCancellation);
+  const auto last = std::chrono::steady_clock::now() + linger + kCancellation;
+  parts_->down.wait_until(last);
+  parts_->given_back.wait_until(last);  // longer if the database does not answer
 }
 
 }  // namespace kcs::service

@@ -54,7 +54,8 @@ class Server {
 
   // Refuses new requests, lets the running ones finish for up to `grace`, then cancels them. Returns when they have
   // ended, at the latest three seconds after the grace: a call whose client takes nothing from its connection may still
-  // hang then, and a thread may still be making a plan. The destructor waits for both. Calling it again does nothing.
+  // hang then, a thread may still be making a plan, and the database may not have answered. The destructor waits for
+  // all of them. Calling it again does nothing.
   void stop(std::chrono::milliseconds grace);
 
  private:
