@@ -1,39 +1,12 @@
 // The disk of the database is full, for real: a small one is mounted for the test, which only root may do.
-#include <sched.h>
-#include <string.h>
-#include <sys/mount.h>
-
 #include <filesystem>
 #include <fstream>
 
+#include "tests/store/small_disk.h"
 #include "tests/store/store_test.h"
 
 namespace kcs::store {
 namespace {
-
-// A disk of 24 MB, for this thread and the processes it starts.
-class SmallDisk {
- public:
-  SmallDisk() {
-    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
-        mount("none", folder_.path().c_str(), "tmpfs", 0, "size=24m,mode=777") != 0) {
-      why_not_ = strerror(errno);
-    }
-  }
-  ~SmallDisk() {
-    if (why_not_.empty()) umount2(folder_.path().c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
-  const test::TemporaryFolder& folder() const { return folder_; }
-  // Empty if it is there.
-  const std::string& why_not() const { return why_not_; }
-
- private:
-  test::TemporaryFolder folder_;
-  std::string why_not_;
-};
 
 class DiskFull : public ::testing::Test {
  protected:
@@ -72,7 +45,7 @@ class DiskFull : public ::testing::Test {
     EXPECT_EQ(store.list("ada", {}, 100, "").records.size(), kept);
   }
 
-  SmallDisk disk_;
+  test::SmallDisk disk_;
 };
 
 TEST_F(DiskFull, OfSqliteIsSaidAndPasses) {
