@@ -88,7 +88,9 @@ std::string encode_refusal(const grpc::Status& status) {
 
 grpc::Status decode_refusal(const std::string& bytes) {
   google::rpc::Status message;
-  if (!message.ParseFromString(bytes)) return failure(grpc::StatusCode::INTERNAL, kStoreBroken);
+  const bool is_refusal = message.ParseFromString(bytes) && message.code() > grpc::StatusCode::OK &&
+                          message.code() <= grpc::StatusCode::UNAUTHENTICATED;  // the last one of gRPC
+  if (!is_refusal) return failure(grpc::StatusCode::INTERNAL, kStoreBroken);
   return {static_cast<grpc::StatusCode>(message.code()), message.message(), bytes};
 }
 

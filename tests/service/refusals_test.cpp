@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "server/service/status.h"
 #include "tests/service/test_server.h"
 
 namespace kcs::service::test {
@@ -230,6 +231,15 @@ TEST_F(Refusals, NamesThatAreMissing) {
   EXPECT_TRUE(refuses_field(server_.corners("").status, "name"));
   EXPECT_EQ(server_.get("plans/none").status.error_code(), grpc::StatusCode::NOT_FOUND);
   EXPECT_EQ(server_.get(std::string(1'000'000, 'x')).status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST(StoredRefusals, DamagedOnesAreFailuresOfTheStore) {
+  google::rpc::Status damaged;
+  for (const int code : {-1, 0, 17, 124}) {
+    damaged.set_code(code);
+    EXPECT_EQ(decode_refusal(damaged.SerializeAsString()).error_code(), grpc::StatusCode::INTERNAL) << code;
+  }
+  EXPECT_EQ(decode_refusal("no message").error_code(), grpc::StatusCode::INTERNAL);
 }
 
 }  // namespace
