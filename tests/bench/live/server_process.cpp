@@ -1,5 +1,6 @@
 #include "tests/bench/live/server_process.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -7,12 +8,26 @@
 #include <stdexcept>
 
 namespace kcs::bench {
+namespace {
 
-ServerProcess::ServerProcess() : process_({KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-level", "warning"}) {
+std::vector<std::string> command(const std::vector<std::string>& flags) {
+  std::vector<std::string> words = {KCSD, "--log-level", "warning"};
+  words.insert(words.end(), flags.begin(), flags.end());
+  return words;
+}
+
+}  // namespace
+
+ServerProcess::ServerProcess(const std::vector<std::string>& flags) : process_(command(flags)) {
   const std::string greeting = process_.read_line();
   const std::size_t blank = greeting.rfind(' ');
   if (blank == std::string::npos) throw std::runtime_error("kcsd does not start: " + process_.errors());
   address_ = greeting.substr(blank + 1);
+}
+
+int ServerProcess::stop() {
+  process_.send_signal(SIGTERM);
+  return process_.wait();
 }
 
 double ServerProcess::cpu_seconds() const {
@@ -31,8 +46,8 @@ double ServerProcess::cpu_seconds() const {
 std::size_t ServerProcess::status(const std::string& key) const {
   std::ifstream file("/proc/" + std::to_string(process_.pid()) + "/status");
   for (std::string word; file >> word;) {
-    std::size_t kilobytes = 0;
-    if (word == key && file >> kilobytes) return kilobytes * 1024;
+    std::size_t number = 0;
+    if (word == key && file >> number) return number;
   }
   throw std::runtime_error("kcsd is gone: " + process_.errors());
 }

@@ -1,29 +1,43 @@
 // A kcsd of its own.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "tests/system/child_process.h"
 
 namespace kcs::bench {
 
-// Serves on a free port of the loopback; ends with this object.
+// Serves until this object goes: then it is killed (SIGKILL), if it still runs.
 class ServerProcess {
  public:
-  // Throws std::runtime_error if it does not start.
-  ServerProcess();
+  // flags: where it listens, or what says so. Throws std::runtime_error if it does not start.
+  explicit ServerProcess(const std::vector<std::string>& flags = {"--listen", "127.0.0.1:0"});
 
   const std::string& address() const { return address_; }
 
   // Memory of the process that is really there, bytes: now, and the most so far.
-  std::size_t memory() const { return status("VmRSS:"); }
-  std::size_t most_memory() const { return status("VmHWM:"); }
+  std::size_t memory() const { return status("VmRSS:") * 1024; }
+  std::size_t most_memory() const { return status("VmHWM:") * 1024; }
+
+  int threads() const { return static_cast<int>(status("Threads:")); }
+
+  pid_t pid() const { return process_.pid(); }
+
+  // Asks it to stop (SIGTERM), and waits for up to a minute. Its exit code.
+  int stop();
+
+  // What it wrote to its log so far: warnings and errors.
+  std::string log() const { return process_.errors(); }
 
   // Time that its threads have taken of the processors so far, s.
   double cpu_seconds() const;
 
  private:
+  // A number of /proc/PID/status, in kB where it has a unit.
   std::size_t status(const std::string& key) const;
 
   test::ChildProcess process_;
