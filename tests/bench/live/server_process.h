@@ -15,7 +15,7 @@ namespace kcs::bench {
 class ServerProcess {
  public:
   // flags: where it listens, or what says so. Throws std::runtime_error if it does not start.
-  explicit ServerProcess(const std::vector<std::string>& flags = {"--listen", "127.0.0.1:0"});
+  explicit ServerProcess(const std::vector<std::string>& flags = {"--listen", "127.0.0.1:0", "--database", "memory"});
 
   const std::string& address() const { return address_; }
 
