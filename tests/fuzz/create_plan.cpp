@@ -1,5 +1,5 @@
-// Any bytes as the messages of a CreatePlan call: refused with a reason, or planned, verified and sampled; and PlanLive
-// gives the same.
+// Any bytes as the messages of a CreatePlan call: refused with a reason, or planned, verified and sampled; PlanLive
+// gives the same, and so does the request once it was stored.
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
 #include <kcs/v1/planning.pb.h>
@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
+#include <string>
 #include <vector>
 
 #include "server/jobs/cap_exceeded.h"
@@ -14,6 +16,7 @@
 #include "server/planning/invalid_input.h"
 #include "server/planning/planner.h"
 #include "server/service/live_call.h"
+#include "server/service/request_code.h"
 #include "server/service/upload.h"
 
 namespace {
@@ -47,6 +50,16 @@ void compare_live(const std::vector<kcs::v1::CreatePlanRequest>& messages, doubl
   require(planned && next == sampler.count());
 }
 
+// The names are digests of all that a request says.
+void compare_stored(const kcs::service::Uploaded& uploaded) {
+  const std::string bytes = kcs::service::encode_request(uploaded.request, uploaded.gcode);
+  try {
+    require(kcs::service::decode_request(uploaded.request.name, bytes, kCaps).name == uploaded.request.name);
+  } catch (const std::exception&) {
+    require(false);
+  }
+}
+
 void plan_and_sample(const kcs::jobs::PlanRequest& request, const std::vector<kcs::v1::CreatePlanRequest>& messages) {
   // A plan that fails its verification throws, and nobody catches it here.
   const kcs::planning::Plan plan = kcs::planning::plan(request.path, request.options.planning);
@@ -71,7 +84,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       messages.emplace_back();
     }
     messages.pop_back();
-    plan_and_sample(upload.finish(), messages);
+    const kcs::service::Uploaded uploaded = upload.finish();
+    compare_stored(uploaded);
+    plan_and_sample(uploaded.request, messages);
   } catch (const kcs::planning::InvalidInput&) {
   } catch (const kcs::jobs::CapExceeded&) {
   }
