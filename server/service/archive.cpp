@@ -3,7 +3,6 @@
 #include <kcs/v1/planning.pb.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <exception>
 
 #include "server/jobs/cap_exceeded.h"
@@ -12,19 +11,6 @@
 
 namespace kcs::service {
 namespace {
-
-// Observes how long it lives.
-class Stopwatch {
- public:
-  explicit Stopwatch(observe::Histogram& durations) : durations_(durations) {}
-  ~Stopwatch() { durations_.observe(std::chrono::steady_clock::now() - began_); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  observe::Histogram& durations_;
-  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-};
 
 // Whether planning again would end the same way. Only then is it an outcome: others may have better luck.
 bool is_final(const grpc::Status& status) {
@@ -39,7 +25,7 @@ Archive::Archive(const store::StoreSettings& settings, jobs::PlanStore& memory,
 
 void Archive::open() {
   if (open_ != nullptr) return;
-  const Stopwatch stopwatch(durations_.with({"open"}));
+  const observe::Histogram::Stopwatch stopwatch(durations_.with({"open"}));
   store_ = std::make_unique<store::Store>(settings_);
   open_ = store_.get();
 }
@@ -52,7 +38,7 @@ store::Store& Archive::database() {
 
 template <typename Work>
 auto Archive::timed(const char* operation, const Work& work) {
-  const Stopwatch stopwatch(durations_.with({operation}));
+  const observe::Histogram::Stopwatch stopwatch(durations_.with({operation}));
   return work(database());
 }
 
