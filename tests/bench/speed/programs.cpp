@@ -27,7 +27,9 @@ void read_and_plan(benchmark::State& state, const std::string& text) {
   state.counters["lines/s"] = rate(static_cast<double>(std::count(text.begin(), text.end(), '\n')));
   state.counters["segments/s"] = rate(segments);
   state.counters["s of motion"] = plan.summary.cycle_time;
-  state.counters["B/segment kept"] = static_cast<double>(plan.trajectory.bytes() + plan.corners.bytes()) / segments;
+  const std::size_t kept = plan.trajectory.bytes() + plan.corners.bytes() + plan.path.bytes() +
+                           plan.milestones.capacity() * sizeof(motion::Milestone);
+  state.counters["B/segment kept"] = static_cast<double>(kept) / segments;
 }
 
 std::string gcode_of(const planning::Toolpath& path) {
