@@ -70,8 +70,9 @@ TEST_F(HostileConnections, WhoseHeadersDoNotEndHoldUpNobodyAndLeaveNothingBehind
   };
   flood();
   const std::size_t before = kcsd_.status_figure("VmHWM:");
-  for (int round = 0; round < 5; ++round) flood();
-  EXPECT_LT(kcsd_.status_figure("VmHWM:"), before + 2 * kBytesPerRound / 1000);
+  for (int round = 0; round < 15; ++round) flood();
+  // Connections of a few rounds may be there at the same time, until kcsd sees that they were closed; not all of them.
+  EXPECT_LT(kcsd_.status_figure("VmHWM:"), before + 6 * kBytesPerRound / 1000);
 }
 
 TEST_F(HostileConnections, ThatSendGarbageAreNoTrouble) {
