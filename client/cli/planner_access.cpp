@@ -18,7 +18,7 @@ std::unique_ptr<service::Server> make_local_server() {
   options.caps.points_per_plan = kNoCap;
   options.caps.gcode_bytes = std::uint64_t{1} << 30;  // a program goes into the store in one piece
   options.store.database = "memory";
-  options.caps.stored_bytes = kNoCap;
+  options.caps.cached_bytes = kNoCap;
   return std::make_unique<service::Server>(options);
 }
 

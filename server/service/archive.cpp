@@ -19,7 +19,7 @@ bool is_final(const grpc::Status& status) {
 
 }  // namespace
 
-Archive::Archive(const store::StoreSettings& settings, jobs::PlanStore& memory,
+Archive::Archive(const store::StoreSettings& settings, jobs::PlanCache& memory,
                  observe::Family<observe::Histogram>& durations)
     : settings_(settings), memory_(memory), durations_(durations) {}
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "server/jobs/plan_keeper.h"
-#include "server/jobs/plan_store.h"
+#include "server/jobs/plan_cache.h"
 #include "server/observe/family.h"
 #include "server/observe/histogram.h"
 #include "server/store/store.h"
@@ -23,11 +23,12 @@ namespace kcs::service {
 class Archive final : public jobs::PlanKeeper {
  public:
   // Keeps a reference to `durations`, which has one label, the operation.
-  Archive(const store::StoreSettings& settings, jobs::PlanStore& memory,
+  Archive(const store::StoreSettings& settings, jobs::PlanCache& memory,
           observe::Family<observe::Histogram>& durations);
 
   // Opens the database; nothing if it is open.
   void open();
+  bool is_open() const { return open_ != nullptr; }
 
   // In memory alone.
   jobs::PlanPointer find(const std::string& name) override { return memory_.find(name); }
@@ -59,7 +60,7 @@ class Archive final : public jobs::PlanKeeper {
   store::Store& database();
 
   const store::StoreSettings settings_;
-  jobs::PlanStore& memory_;
+  jobs::PlanCache& memory_;
   observe::Family<observe::Histogram>& durations_;
   std::unique_ptr<store::Store> store_;
   std::atomic<store::Store*> open_ = nullptr;  // store_ once it is there

@@ -16,8 +16,8 @@ struct Caps {
   std::uint64_t message_bytes = 4 << 20;
   // Trajectories kept in memory for the streams. Beyond either number the one that was not used for longest is
   // forgotten, to be planned again from its request in the store.
-  std::uint64_t stored_plans = 1'000;
-  std::uint64_t stored_bytes = std::uint64_t{2} << 30;
+  std::uint64_t cached_plans = 1'000;
+  std::uint64_t cached_bytes = std::uint64_t{2} << 30;
   // Requests that wait for a planning thread, and those of one client among them. Each holds its whole tool path, and
   // what was planned of it in the turns that it had.
   std::uint64_t queue_length = 128;

@@ -75,7 +75,12 @@ bool Caretaker::attend() {
     readiness_.set_not_ready(kNotReached);
     return false;
   } catch (const store::StoreFull& full) {
-    spdlog::error("cannot take requests: {}", full.what());  // what is there can still be read
+    spdlog::error("cannot take requests: {}", full.what());
+    if (!archive_.is_open()) {
+      readiness_.set_not_ready("the store has no room to be opened");
+      return false;
+    }
+    // What is there can still be read.
   }
   readiness_.set_ready();
   return true;
@@ -94,6 +99,7 @@ void Caretaker::take_up(const std::string& name) {
     throw;
   } catch (const std::exception& defect) {
     spdlog::error("cannot plan {}, which was accepted: {}", name, defect.what());
+    archive_.refuse({.name = name}, std::current_exception());
   }
 }
 

@@ -161,17 +161,19 @@ jobs::PlanPointer Plans::load(const Caller& caller, const std::string& name) {
         await(caller, *under_way);
         return under_way->plan();
       }
-      const jobs::Ticket ticket = plan_again(caller, name);
-      await(caller, ticket);
-      return ticket.plan();
+      if (const auto ticket = plan_again(caller, name)) {
+        await(caller, *ticket);
+        return ticket->plan();
+      }
     } catch (const jobs::Withdrawn&) {
       find(caller, name);  // those who had it made have gone, unless it was deleted
     }
   }
 }
 
-jobs::Ticket Plans::plan_again(const Caller& caller, const std::string& name) {
+std::optional<jobs::Ticket> Plans::plan_again(const Caller& caller, const std::string& name) {
   const std::lock_guard lock(planning_again_);
+  if (desk_.watch(name) || archive_.find(name)) return std::nullopt;
   const std::optional<std::string> bytes = archive_.request(name);
   if (!bytes) throw NotKept();
   jobs::PlanRequest request = decode_request(name, *bytes, caps_);

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "server/jobs/plan_desk.h"
@@ -47,7 +48,8 @@ class Plans {
   // What the desk knows of a plan without outcome.
   v1::PlanState state_of(const std::string& name);
   void send_progress(const Caller& caller, const jobs::PlanWatch& watch, const SendProgress& send) const;
-  jobs::Ticket plan_again(const Caller& caller, const std::string& name);
+  // Nothing if somebody else has had it planned since the caller looked for it.
+  std::optional<jobs::Ticket> plan_again(const Caller& caller, const std::string& name);
 
   jobs::PlanDesk& desk_;
   Archive& archive_;

@@ -13,8 +13,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "server/jobs/plan_cache.h"
 #include "server/jobs/plan_desk.h"
-#include "server/jobs/plan_store.h"
 #include "server/observe/http_endpoint.h"
 #include "server/service/access_control.h"
 #include "server/service/archive.h"
@@ -87,7 +87,7 @@ struct Server::Parts {
       : caps(options.caps),
         observation{.log = options.log},
         http(make_http(options.observe.http_listen, observation)),
-        memory(caps.stored_plans, caps.stored_bytes),
+        memory(caps.cached_plans, caps.cached_bytes),
         archive(options.store, memory, observation.metrics.store_duration),
         desk(archive, scheduling(caps, thread_count(options.planning_threads)),
              [this](const jobs::PlanDesk::Planned& planned) { report(observation, planned); }),
@@ -109,7 +109,7 @@ struct Server::Parts {
   const Caps caps;
   Observation observation;
   std::unique_ptr<observe::HttpEndpoint> http;  // null if nobody asked for it
-  jobs::PlanStore memory;
+  jobs::PlanCache memory;
   Archive archive;
   jobs::PlanDesk desk;
   std::optional<Caretaker> caretaker;  // from when it listens until it stops

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "server/store/store.h"
 #include "tests/service/kept_plans.h"
+#include "tests/store/temporary_folder.h"
 
 namespace kcs::service::test {
 namespace {
@@ -122,6 +124,26 @@ TEST(AcceptOnly, SaysWhyARequestWasRefusedUntilItIsDeleted) {
   EXPECT_TRUE(server.remove(name).ok());
   EXPECT_EQ(server.get(name).status.error_code(), grpc::StatusCode::NOT_FOUND);
   EXPECT_EQ(list(server).message.plans_size(), 0);
+}
+
+// Or it would be tried again for ever, and nobody would hear of it.
+TEST(AcceptOnly, WhatIsDamagedInTheStoreIsRefusedOnce) {
+  const kcs::test::TemporaryFolder folder;
+  const store::StoreSettings settings{.database = "sqlite:" + (folder.path() / "plans.db").string()};
+  {
+    store::Store store(settings);
+    store.accept("", {.name = "plans/damaged", .machine_name = "", .bytes = "no request"});
+    store.release();
+  }
+  TestServer server({.store = settings});
+  Answer<v1::Plan> found;
+  ASSERT_TRUE(eventually([&] {
+    found = server.get("plans/damaged");
+    return !found.status.ok();
+  }));
+  EXPECT_EQ(found.status.error_code(), grpc::StatusCode::INTERNAL) << found.status.error_message();
+  EXPECT_EQ(list(server).message.plans(0).state(), v1::PLAN_STATE_REFUSED);
+  EXPECT_TRUE(server.remove("plans/damaged").ok());
 }
 
 TEST(AcceptOnly, RefusesAtOnceWhatNeedsNoPlanning) {

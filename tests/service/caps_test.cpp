@@ -84,7 +84,7 @@ TEST(Caps, MessageSize) {
 }
 
 TEST(Caps, WhatMemoryHasNoRoomForIsPlannedAgain) {
-  TestServer server({.caps = {.stored_plans = 1}});
+  TestServer server({.caps = {.cached_plans = 1}});
   const std::string name = server.create({request(options()), request(zigzag(300))}).message.name();
   const auto before = server.stream(setpoints(name, 0.001)).message;
   ASSERT_TRUE(server.create({request(options()), request(zigzag(3))}).status.ok());
@@ -96,10 +96,10 @@ TEST(Caps, WhatMemoryHasNoRoomForIsPlannedAgain) {
   }
 }
 
-TEST(Caps, PlanThatIsLargerThanTheStore) {
-  TestServer server({.caps = {.stored_bytes = 50'000}});
+TEST(Caps, PlanThatIsLargerThanTheCache) {
+  TestServer server({.caps = {.cached_bytes = 50'000}});
   EXPECT_TRUE(server.create({request(options()), request(zigzag(3))}).status.ok());
-  EXPECT_TRUE(exhausts(server.create({request(options()), request(zigzag(1000))}).status, "stored_bytes = 50000"));
+  EXPECT_TRUE(exhausts(server.create({request(options()), request(zigzag(1000))}).status, "cached_bytes = 50000"));
 }
 
 TEST(Caps, UploadsAtTheSameTime) {

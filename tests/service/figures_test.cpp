@@ -8,6 +8,7 @@
 
 #include "server/net/address.h"
 #include "tests/observe/exposition_reader.h"
+#include "tests/service/kept_plans.h"
 #include "tests/service/live_client.h"
 #include "tests/service/test_server.h"
 
@@ -39,7 +40,7 @@ class Figures : public ::testing::Test {
   }
 
   TestServer server_{{.planning_threads = 1,
-                      .caps = {.points_per_plan = 100, .uploads = 2},
+                      .caps = {.points_per_plan = 40'000, .cached_plans = 1, .uploads = 2},
                       .observe = {.http_listen = "127.0.0.1:0"}}};
 };
 
@@ -58,10 +59,23 @@ TEST_F(Figures, CountRefusalsByTheirReason) {
   EXPECT_EQ(figure("kcs_rejections_total{reason=\"invalid_argument\"}"), 1);
   EXPECT_FALSE(server_.get("plans/none").status.ok());
   EXPECT_EQ(figure("kcs_rejections_total{reason=\"not_found\"}"), 1);
-  EXPECT_FALSE(server_.create({request(options()), request(path(std::vector<double>(404)))}).status.ok());
+  EXPECT_FALSE(server_.create({request(options()), request(path(std::vector<double>(80'002)))}).status.ok());
   EXPECT_EQ(figure("kcs_rejections_total{reason=\"points_per_plan\"}"), 1);
   EXPECT_EQ(figure("kcs_rpcs_total{method=\"CreatePlan\",code=\"RESOURCE_EXHAUSTED\"}"), 1);
   EXPECT_EQ(figure("kcs_planning_duration_seconds_count"), 0);
+}
+
+TEST_F(Figures, TellThatAPlanMemoryHasLostIsMadeOnceForAllWhoWantIt) {
+  const std::string name = server_.create({request(options()), request(long_path())}).message.name();
+  make_plan();
+  {
+    std::vector<std::jthread> streams;
+    for (int i = 0; i < 20; ++i) {
+      streams.emplace_back([&] { EXPECT_TRUE(server_.stream(setpoints(name, 1)).status.ok()); });
+    }
+  }
+  EXPECT_EQ(figure("kcs_planning_duration_seconds_count"), 3);
+  EXPECT_EQ(figure("kcs_store_duration_seconds_count{operation=\"request\"}"), 1);
 }
 
 TEST_F(Figures, CountSetpointsAsTheyAreSent) {

@@ -58,7 +58,7 @@ TEST_F(Owners, AdministratorSeesAndDeletesEverybodysPlans) {
 }
 
 TEST_F(Owners, KeepWhatMemoryHasNoRoomFor) {
-  TestServer small({.caps = {.stored_plans = 1},
+  TestServer small({.caps = {.cached_plans = 1},
                     .security = {.tokens = {known("cam", {Role::kPlan}), known("shop", {Role::kPlan})}}});
   SecureClient cam = client_of(small, "cam");
   SecureClient shop = client_of(small, "shop");

@@ -12,9 +12,9 @@ constexpr double kWarmUp = 60;    // s
 constexpr double kShortest = 60;  // s after that: in less, one large plan decides on the slope
 constexpr double kMegabyte = 1 << 20;
 // A minute. The server serves one to two thousand calls in it, of which half make or load a plan of 10 kB to 5 MB: a
-// leak of a plan, or of 6 kB a call, is more than this. What the allocator and the pages of the database come to was 1
+// leak of a plan, or of 4 kB a call, is more than this. What the allocator and the pages of the database come to was 1
 // to 3 MB.
-constexpr double kMostGrowth = 6 * kMegabyte;
+constexpr double kMostGrowth = 4 * kMegabyte;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

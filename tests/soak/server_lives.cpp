@@ -43,7 +43,7 @@ std::string write_settings(const std::filesystem::path& folder) {
   // planned again from the store. A short lease: what a killed server had accepted is soon planned by the next one.
   std::ofstream(file) << fmt::format(
       "[store]\ndatabase = \"sqlite:{}\"\nconnections = 3\nlease_s = 3\n"
-      "[caps]\nstored_plans = 20\nstored_bytes = 33_554_432\n",
+      "[caps]\ncached_plans = 20\ncached_bytes = 33_554_432\n",
       (folder / "plans.db").string());
   return file;
 }

@@ -50,7 +50,7 @@ class Reference {
   std::vector<std::string> stream(const std::string& name) { return kcsd_.stream(setpoints(name, kPeriod)).message; }
 
  private:
-  TestKcsd kcsd_{"[server]\nlog_level = \"info\"\n[caps]\nstored_plans = 100000\n[store]\ndatabase = \"memory\"\n"};
+  TestKcsd kcsd_{"[server]\nlog_level = \"info\"\n[caps]\ncached_plans = 100000\n[store]\ndatabase = \"memory\"\n"};
   std::map<std::string, Made> made_;
 };
 

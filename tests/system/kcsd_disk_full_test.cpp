@@ -72,6 +72,17 @@ TEST_F(DiskFull, OfSqliteIsSaidAndPasses) {
   fill_and_recover(kcsd);
 }
 
+TEST_F(DiskFull, FromTheStartKeepsKcsdFromBeingReadyUntilThereIsRoom) {
+  std::ofstream(filler()) << std::string(24'000'000, 'x');
+  while (std::ofstream(filler(), std::ios::app) << std::string(4096, 'x') << std::flush) {
+  }
+  TestKcsd kcsd(store_settings("sqlite:" + (disk_.folder().path() / "plans.db").string()));
+  EXPECT_EQ(kcsd.page("/readyz").status, 503);
+  std::filesystem::remove(filler());
+  EXPECT_TRUE(eventually([&] { return kcsd.page("/readyz").status == 200; }));
+  EXPECT_TRUE(kcsd.create(large_request(1)).status.ok());
+}
+
 TEST_F(DiskFull, OfPostgresqlIsSaidAndPasses) {
   const auto tables = disk_.folder().path() / "tables";
   std::filesystem::create_directory(tables);

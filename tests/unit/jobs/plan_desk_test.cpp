@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "server/jobs/cap_exceeded.h"
-#include "server/jobs/plan_store.h"
+#include "server/jobs/plan_cache.h"
 #include "server/jobs/withdrawn.h"
 #include "server/planning/invalid_input.h"
 #include "tests/unit/jobs/requests.h"
@@ -33,7 +33,7 @@ constexpr Scheduler::Limits kOneThread{.threads = 1, .queue_length = 100, .clien
 struct Office {
   explicit Office(const Scheduler::Limits& limits = kOneThread) : desk(plans, limits) {}
 
-  PlanStore plans{1000, 1 << 30};
+  PlanCache plans{1000, 1 << 30};
   PlanDesk desk;
 };
 
@@ -188,7 +188,7 @@ class SlowKeeper : public PlanKeeper {
   std::promise<void> keeping, opened;
 
  private:
-  PlanStore plans_{10, 1 << 20};
+  PlanCache plans_{10, 1 << 20};
   std::future<void> opened_ = opened.get_future();
 };
 
@@ -227,7 +227,7 @@ TEST(PlanDesk, NobodyHearsOfAPlanThatCannotBeKept) {
 }
 
 TEST(PlanDesk, ReportsEveryPlanThatItMakesOnce) {
-  PlanStore plans(10, 1 << 20);
+  PlanCache plans(10, 1 << 20);
   std::vector<std::string> calls;
   PlanDesk desk(plans, kOneThread, [&](const PlanDesk::Planned& planned) {
     EXPECT_EQ(plans.find("plans/a").get(), &planned.plan);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "server/jobs/plan_desk.h"
-#include "server/jobs/plan_store.h"
+#include "server/jobs/plan_cache.h"
 #include "tests/unit/jobs/requests.h"
 
 namespace kcs::jobs {
@@ -20,7 +20,7 @@ using test::right_angle;
 constexpr milliseconds kDeadline{60'000};
 
 struct Office {
-  PlanStore plans{1000, 1 << 30};
+  PlanCache plans{1000, 1 << 30};
   PlanDesk desk{plans, {.threads = 1, .queue_length = 100, .client_waiting = 100, .client_running = 1}};
 };
 

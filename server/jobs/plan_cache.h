@@ -1,4 +1,4 @@
-// The plans that the server keeps.
+// The plans that the server has at hand.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ namespace kcs::jobs {
 
 // Plans by their names, in memory, within a bound on their number and on their size. Where a new one needs room, the
 // one that was not used for longest goes: its request makes it again. Safe for use by many threads at once.
-class PlanStore final : public PlanKeeper {
+class PlanCache final : public PlanKeeper {
  public:
-  PlanStore(std::size_t max_plans, std::uint64_t max_bytes);
+  PlanCache(std::size_t max_plans, std::uint64_t max_bytes);
 
   // The plan, which counts as used now; null if it is not kept.
   PlanPointer find(const std::string& name) override;
 
-  // Keeps `plan`. Throws CapExceeded if it is larger than the whole store.
+  // Keeps `plan`. Throws CapExceeded if it is larger than the whole cache.
   void keep(const PlanPointer& plan) override;
 
   // Forgets the plan; whoever holds it keeps it alive. False if it is not kept.
@@ -35,7 +35,7 @@ class PlanStore final : public PlanKeeper {
   };
   using Entries = std::list<Entry>;
 
-  // Takes the entry out of the store.
+  // Takes the entry out of the cache.
   Entry remove(Entries::iterator entry);
 
   const std::size_t max_plans_;

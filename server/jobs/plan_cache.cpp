@@ -1,4 +1,4 @@
-#include "server/jobs/plan_store.h"
+#include "server/jobs/plan_cache.h"
 
 #include <iterator>
 #include <utility>
@@ -21,9 +21,9 @@ std::uint64_t size_of(const KeptPlan& plan) {
 
 }  // namespace
 
-PlanStore::PlanStore(std::size_t max_plans, std::uint64_t max_bytes) : max_plans_(max_plans), max_bytes_(max_bytes) {}
+PlanCache::PlanCache(std::size_t max_plans, std::uint64_t max_bytes) : max_plans_(max_plans), max_bytes_(max_bytes) {}
 
-PlanPointer PlanStore::find(const std::string& name) {
+PlanPointer PlanCache::find(const std::string& name) {
   const std::lock_guard lock(mutex_);
   const auto found = by_name_.find(name);
   if (found == by_name_.end()) return nullptr;
@@ -31,10 +31,10 @@ PlanPointer PlanStore::find(const std::string& name) {
   return found->second->plan;
 }
 
-void PlanStore::keep(const PlanPointer& plan) {
+void PlanCache::keep(const PlanPointer& plan) {
   const std::uint64_t bytes = size_of(*plan);
   if (bytes > max_bytes_) {
-    throw CapExceeded("stored_bytes", max_bytes_,
+    throw CapExceeded("cached_bytes", max_bytes_,
                       "this plan alone takes " + std::to_string(bytes) + " bytes; send the program in parts");
   }
   std::vector<Entry> forgotten;  // dies after the lock is gone: freeing a large plan takes a while
@@ -48,7 +48,7 @@ void PlanStore::keep(const PlanPointer& plan) {
   bytes_ += bytes;
 }
 
-bool PlanStore::forget(const std::string& name) {
+bool PlanCache::forget(const std::string& name) {
   Entry forgotten;
   const std::lock_guard lock(mutex_);
   const auto found = by_name_.find(name);
@@ -57,7 +57,7 @@ bool PlanStore::forget(const std::string& name) {
   return true;
 }
 
-PlanStore::Entry PlanStore::remove(Entries::iterator entry) {
+PlanCache::Entry PlanCache::remove(Entries::iterator entry) {
   Entry removed = std::move(*entry);
   by_name_.erase(removed.plan->name);
   bytes_ -= removed.bytes;
