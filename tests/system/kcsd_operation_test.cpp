@@ -8,14 +8,10 @@
 #include <netinet/in.h>
 #include <signal.h>
 #include <sys/socket.h>
-#include <sys/time.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -25,6 +21,7 @@
 #include <vector>
 
 #include "tests/system/child_process.h"
+#include "tests/systemd/notify_socket.h"
 
 namespace kcs::test {
 namespace {
@@ -68,37 +65,6 @@ std::string http_address_of(const ChildProcess& kcsd) {
   ADD_FAILURE() << "no address of the figures: " << kcsd.errors();
   return "127.0.0.1:0";
 }
-
-// The socket on which systemd hears from its services.
-class NotifySocket {
- public:
-  NotifySocket() : path_(::testing::TempDir() + "kcs-notify-" + std::to_string(getpid())) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strncpy(address.sun_path, path_.c_str(), sizeof(address.sun_path) - 1);
-    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-    const timeval patience{.tv_sec = kDeadline.count(), .tv_usec = 0};
-    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-  }
-  ~NotifySocket() {
-    close(socket_);
-    unlink(path_.c_str());
-  }
-  NotifySocket(const NotifySocket&) = delete;
-  NotifySocket& operator=(const NotifySocket&) = delete;
-
-  const std::string& path() const { return path_; }
-
-  std::string receive() const {
-    std::array<char, 512> bytes{};
-    const ssize_t size = recv(socket_, bytes.data(), bytes.size(), 0);
-    return size < 0 ? "nothing came" : std::string(bytes.data(), static_cast<std::size_t>(size));
-  }
-
- private:
-  const std::string path_;
-  const int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-};
 
 TEST(KcsdUnderSystemd, TellsWhenItIsReadyAliveAndStopping) {
   const NotifySocket manager;
