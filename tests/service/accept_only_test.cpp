@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "server/store/store.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/service/kept_plans.h"
-#include "tests/store/temporary_folder.h"
 
 namespace kcs::service::test {
 namespace {

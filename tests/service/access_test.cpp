@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "server/security/token.h"
-#include "tests/certificates/folder.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/service/secure_client.h"
 
 namespace kcs::service::test {
@@ -120,7 +120,7 @@ class TokensInAFile : public ::testing::Test {
   void write(const std::string& text) const { folder_.write("tokens.toml", text); }
   ServerOptions options() const { return {.security = {.tokens_file = folder_.path("tokens.toml")}}; }
 
-  const kcs::test::Folder folder_;
+  const kcs::test::TemporaryFolder folder_;
 };
 
 TEST_F(TokensInAFile, AreGivenAndRevokedWithoutRestart) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/certificates/authority.h"
-#include "tests/certificates/folder.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/service/secure_client.h"
 
 namespace kcs::service::test {
@@ -95,7 +95,7 @@ class ClientCertificates : public ::testing::Test {
     return {server.address(), tls(authority_, authority_.issue(common_name, alternative_names)), token};
   }
 
-  const kcs::test::Folder folder_;
+  const kcs::test::TemporaryFolder folder_;
   const Authority authority_{"the authority"};
 };
 

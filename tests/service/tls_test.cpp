@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/certificates/authority.h"
-#include "tests/certificates/folder.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/service/secure_client.h"
 
 namespace kcs::service::test {
@@ -58,7 +58,7 @@ class Tls : public ::testing::Test {
     return name;
   }
 
-  const kcs::test::Folder folder_;
+  const kcs::test::TemporaryFolder folder_;
   const Authority authority_{"the authority"};
   const Authority other_authority_{"another authority"};
   const Issued server_ = kcs::test::issue_for_loopback(authority_, "the first");

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/files/temporary_folder.h"
 #include "tests/soak/client.h"
 #include "tests/soak/disturbers.h"
 #include "tests/soak/ledger.h"
@@ -20,7 +21,6 @@
 #include "tests/soak/server_lives.h"
 #include "tests/soak/tally.h"
 #include "tests/soak/verification.h"
-#include "tests/store/temporary_folder.h"
 
 namespace kcs::soak {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/store/temporary_folder.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/system/child_process.h"
 
 namespace kcs::test {

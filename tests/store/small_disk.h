@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <string>
 
-#include "tests/store/temporary_folder.h"
+#include "tests/files/temporary_folder.h"
 
 namespace kcs::test {
 

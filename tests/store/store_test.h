@@ -7,8 +7,8 @@
 #include <string>
 
 #include "server/store/store.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/store/postgres_server.h"
-#include "tests/store/temporary_folder.h"
 
 namespace kcs::store {
 

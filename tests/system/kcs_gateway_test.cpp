@@ -1,7 +1,6 @@
 // kcs-gateway and kcsd as real processes, over a real socket.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/files/temporary_folder.h"
 #include "tests/system/child_process.h"
 
 namespace kcs::test {
@@ -40,15 +40,8 @@ std::string contents(const fs::path& file) {
 
 class Gateway : public testing::Test {
  protected:
-  Gateway() {
-    std::string name = (fs::temp_directory_path() / "kcs-gateway-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~Gateway() override { fs::remove_all(folder_); }
-
   // One socket for all servers of a test: one that is started again is found where it was.
-  std::string address() const { return "unix:" + (folder_ / "socket").string(); }
+  std::string address() const { return "unix:" + folder_.path("socket"); }
 
   // database: "memory", or what a restarted server finds again.
   std::unique_ptr<ChildProcess> start_server(const std::string& database = "memory") const {
@@ -81,10 +74,7 @@ class Gateway : public testing::Test {
 
   nlohmann::json play(const std::vector<std::string>& arguments) const { return report_of(*start_gateway(arguments)); }
 
-  fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
+  fs::path write(const std::string& name, const std::string& text) { return folder_.write(name, text); }
 
   // A program that takes about seven seconds.
   fs::path long_program() {
@@ -119,7 +109,7 @@ class Gateway : public testing::Test {
     return arguments;
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 // Table 1 of the paper: RMS 2.8 to 3.1 µm, maximum 16 to 22 µm. The simulated drives have the paper's control loops,
@@ -145,9 +135,9 @@ TEST_F(Gateway, SharpCornersGiveContourErrorsOfTheOrderOfThePaper) {
 TEST_F(Gateway, SimulatedTimeAndClockGiveTheSameMotion) {
   const auto server = start_server();
   const std::string program = write("six.ngc", kSixCorners);
-  const auto by_clock = play(with({program, "--record", (folder_ / "clock.csv").string()}));
-  const auto simulated = play(with({program, "--fast", "--record", (folder_ / "fast.csv").string()}));
-  EXPECT_EQ(contents(folder_ / "clock.csv"), contents(folder_ / "fast.csv"));
+  const auto by_clock = play(with({program, "--record", folder_.path("clock.csv")}));
+  const auto simulated = play(with({program, "--fast", "--record", folder_.path("fast.csv")}));
+  EXPECT_EQ(contents(folder_.path("clock.csv")), contents(folder_.path("fast.csv")));
   EXPECT_EQ(by_clock["contour_error_max_mm"], simulated["contour_error_max_mm"]);
   EXPECT_EQ(by_clock["unmeasured_ticks"], 0);
   EXPECT_TRUE(by_clock.contains("lateness_us"));
@@ -172,9 +162,9 @@ TEST_F(Gateway, PlaysOnlyTheSecondsAskedFor) {
 TEST_F(Gateway, ServerThatIsKilledAndComesBackDoesNotDisturbTheMotion) {
   auto server = start_server();
   const std::string program = long_program();
-  play(with({program, "--fast", "--record", (folder_ / "undisturbed.csv").string()}));
+  play(with({program, "--fast", "--record", folder_.path("undisturbed.csv")}));
 
-  const fs::path recording = folder_ / "disturbed.csv";
+  const fs::path recording = folder_.path("disturbed.csv");
   const auto gateway = start_gateway(with({program, "--buffer", "2", "--record", recording.string()}));
   wait_until_moving(recording);
   crash(*server);
@@ -185,12 +175,12 @@ TEST_F(Gateway, ServerThatIsKilledAndComesBackDoesNotDisturbTheMotion) {
   EXPECT_EQ(report["end"], "complete");
   EXPECT_EQ(report["resumptions"], 1);
   EXPECT_LT(report["buffer_min_s"], report["buffer_mean_s"]);
-  EXPECT_EQ(commanded(recording), commanded(folder_ / "undisturbed.csv"));
+  EXPECT_EQ(commanded(recording), commanded(folder_.path("undisturbed.csv")));
 }
 
 TEST_F(Gateway, ServerThatStaysAwayIsReportedAsStarvation) {
   auto server = start_server();
-  const fs::path recording = folder_ / "run.csv";
+  const fs::path recording = folder_.path("run.csv");
   const auto gateway = start_gateway(with({long_program(), "--buffer", "0.2", "--record", recording.string()}));
   wait_until_moving(recording);
   crash(*server);
@@ -202,7 +192,7 @@ TEST_F(Gateway, ServerThatStaysAwayIsReportedAsStarvation) {
 
 TEST_F(Gateway, ServerThatHangsIsReportedAsStarvation) {
   const auto server = start_server();
-  const fs::path recording = folder_ / "run.csv";
+  const fs::path recording = folder_.path("run.csv");
   const auto gateway = start_gateway(with({long_program(), "--buffer", "0.2", "--record", recording.string()}));
   wait_until_moving(recording);
   server->send_signal(SIGSTOP);
@@ -212,10 +202,10 @@ TEST_F(Gateway, ServerThatHangsIsReportedAsStarvation) {
 }
 
 TEST_F(Gateway, PlanThatARestartedServerKeptIsTakenUpWithoutItsProgram) {
-  const std::string database = "sqlite:" + (folder_ / "plans.db").string();
+  const std::string database = "sqlite:" + folder_.path("plans.db");
   auto server = start_server(database);
   const auto planned = play(with({long_program(), "--fast"}));
-  const fs::path recording = folder_ / "run.csv";
+  const fs::path recording = folder_.path("run.csv");
   const auto gateway =
       start_gateway({"--plan", planned["plan"], "--buffer", "2", "--json", "--record", recording.string()});
   wait_until_moving(recording);
@@ -230,7 +220,7 @@ TEST_F(Gateway, PlanThatARestartedServerKeptIsTakenUpWithoutItsProgram) {
 TEST_F(Gateway, PlanThatARestartedServerForgotCannotBeTakenUpWithoutItsProgram) {
   auto server = start_server();
   const auto planned = play(with({long_program(), "--fast"}));
-  const fs::path recording = folder_ / "run.csv";
+  const fs::path recording = folder_.path("run.csv");
   const auto gateway =
       start_gateway({"--plan", planned["plan"], "--buffer", "2", "--json", "--record", recording.string()});
   wait_until_moving(recording);
@@ -243,7 +233,7 @@ TEST_F(Gateway, PlanThatARestartedServerForgotCannotBeTakenUpWithoutItsProgram) 
 TEST_F(Gateway, ProgramThatChangedDuringTheRunIsNotTakenUp) {
   auto server = start_server();
   const fs::path program = long_program();
-  const fs::path recording = folder_ / "run.csv";
+  const fs::path recording = folder_.path("run.csv");
   const auto gateway = start_gateway(with({program, "--buffer", "2", "--record", recording.string()}));
   wait_until_moving(recording);
   crash(*server);
@@ -259,7 +249,7 @@ TEST_F(Gateway, RefusalsNameTheReasonInWordsAndByExitCode) {
 
   const auto server = start_server();
   EXPECT_EQ(start_gateway({"--plan", "plans/unknown"})->wait(), 1);
-  EXPECT_EQ(start_gateway({(folder_ / "missing.ngc").string()})->wait(), 4);
+  EXPECT_EQ(start_gateway({folder_.path("missing.ngc")})->wait(), 4);
   EXPECT_EQ(start_gateway({program, "--period", "0"})->wait(), 2);
   EXPECT_EQ(start_gateway({})->wait(), 2);
 

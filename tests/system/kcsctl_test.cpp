@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/files/temporary_folder.h"
 #include "tests/system/child_process.h"
 
 namespace kcs::test {
@@ -35,13 +35,9 @@ struct Result {
 
 class Kcsctl : public testing::Test {
  protected:
-  Kcsctl() {
-    fs::create_directories(folder_);
-    std::ofstream(program()) << kProgram;
-  }
-  ~Kcsctl() override { fs::remove_all(folder_); }
+  Kcsctl() { folder_.write("part.ngc", kProgram); }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
   std::string program() const { return path("part.ngc"); }
 
   static Result run(std::vector<std::string> arguments) {
@@ -61,10 +57,10 @@ class Kcsctl : public testing::Test {
   }
 
   std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("kcsctl_test." + std::to_string(::getpid()));
+  const TemporaryFolder folder_;
 };
 
 std::vector<std::vector<double>> parse_rows(std::istringstream& csv) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/certificates/authority.h"
-#include "tests/certificates/folder.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/system/child_process.h"
 
 namespace kcs::test {
@@ -60,14 +60,14 @@ class Security : public testing::Test {
            "\"\nroles = [" + roles + "]\n";
   }
 
-  const Folder folder_;
+  const TemporaryFolder folder_;
   const Authority authority_{"the authority"};
 };
 
 // kcsd on a free port, with `config` in its configuration file.
 class Kcsd {
  public:
-  Kcsd(const Folder& folder, const std::string& config, const std::string& host = "127.0.0.1",
+  Kcsd(const TemporaryFolder& folder, const std::string& config, const std::string& host = "127.0.0.1",
        const std::vector<std::string>& flags = {})
       : process_(command(folder, config, host, flags)), greeting_(process_.read_line()) {
     if (!greeting_.starts_with("kcsd listens on ")) throw std::runtime_error("kcsd says: " + process_.errors());
@@ -78,8 +78,8 @@ class Kcsd {
   std::string log() const { return process_.errors(); }
 
  private:
-  static std::vector<std::string> command(const Folder& folder, const std::string& config, const std::string& host,
-                                          const std::vector<std::string>& flags) {
+  static std::vector<std::string> command(const TemporaryFolder& folder, const std::string& config,
+                                          const std::string& host, const std::vector<std::string>& flags) {
     std::vector<std::string> command = {
         KCSD,       "--database", "memory",      "--config", folder.write("kcsd.toml", config),
         "--listen", host + ":0",  "--log-level", "debug"};

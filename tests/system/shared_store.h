@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "tests/files/temporary_folder.h"
 #include "tests/store/postgres_server.h"
-#include "tests/store/temporary_folder.h"
 
 namespace kcs::test {
 

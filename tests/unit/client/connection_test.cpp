@@ -10,7 +10,7 @@
 #include "server/security/token.h"
 #include "server/service/server.h"
 #include "tests/certificates/authority.h"
-#include "tests/certificates/folder.h"
+#include "tests/files/temporary_folder.h"
 
 namespace kcs::client {
 namespace {
@@ -50,7 +50,7 @@ class ConnectionTest : public testing::Test {
     }
   }
 
-  const test::Folder folder_;
+  const test::TemporaryFolder folder_;
   const std::string token_file_ = folder_.write("token", "the-first-token\n");
 };
 

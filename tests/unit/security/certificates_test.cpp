@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/certificates/authority.h"
-#include "tests/certificates/folder.h"
+#include "tests/files/temporary_folder.h"
 
 namespace kcs::security {
 namespace {
@@ -35,7 +35,7 @@ class CertificatesTest : public testing::Test {
     EXPECT_NE(trouble().find(hint), std::string::npos) << trouble();
   }
 
-  const test::Folder folder_;
+  const test::TemporaryFolder folder_;
   const test::Authority authority_{"the authority"};
   const test::Issued server_ = test::issue_for_loopback(authority_);
   const CertificateFiles files_{folder_.path("certificate.pem"), folder_.path("key.pem"), folder_.path("ca.pem")};
