@@ -48,7 +48,7 @@ TEST(AcceptOnly, MakesThePlanThatIsMadeForThoseWhoWait) {
   EXPECT_EQ(accepted.message.name(), expected.message.name());
   // A stream of it waits until it is made.
   EXPECT_EQ(all_setpoints(server, expected.message.name()), all_setpoints(patient, expected.message.name()));
-  EXPECT_EQ(content(wait_until_ready(server, expected.message.name())), content(expected.message));
+  EXPECT_EQ(content(server.wait_until_ready(expected.message.name())), content(expected.message));
   const auto again = server.create({accept_only(options()), request(long_path())});
   EXPECT_EQ(again.message.state(), v1::PLAN_STATE_READY);
   EXPECT_EQ(content(again.message), content(expected.message));
@@ -60,7 +60,7 @@ TEST(AcceptOnly, PlansEvenIfTheClientGoes) {
   {
     Call call;
     v1::Plan plan;
-    const auto stub = v1::PlanningService::NewStub(server.new_channel());
+    const auto stub = v1::PlanningService::NewStub(new_channel(server.address()));
     const auto writer = stub->CreatePlan(&call, &plan);
     writer->Write(accept_only(options()));
     writer->Write(request(long_path()));
@@ -68,7 +68,7 @@ TEST(AcceptOnly, PlansEvenIfTheClientGoes) {
     ASSERT_TRUE(writer->Finish().ok());
     name = plan.name();
   }
-  EXPECT_EQ(wait_until_ready(server, name).summary().segment_count(),
+  EXPECT_EQ(server.wait_until_ready(name).summary().segment_count(),
             static_cast<std::uint64_t>(long_path().points_mm_size()) / 2 - 1);
 }
 
@@ -83,7 +83,7 @@ TEST(AcceptOnly, IsWhatItTakesForAPlanToOutliveItsClient) {
   EXPECT_TRUE(server.create({request(options()), request(right_angle())}).status.ok());
   call.TryCancel();
   EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::CANCELLED);
-  EXPECT_EQ(list(server).message.plans_size(), 1) << "what nobody waited for is kept";
+  EXPECT_EQ(server.list().message.plans_size(), 1) << "what nobody waited for is kept";
 }
 
 TEST(AcceptOnly, ShortPlansAndRefusalsAreThereSoon) {
@@ -92,7 +92,7 @@ TEST(AcceptOnly, ShortPlansAndRefusalsAreThereSoon) {
   for (int i = 1; i <= 50; ++i) {
     const auto accepted = server.create({accept_only(options()), request(path({0, 0, 10.0 + i, 0}))});
     ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
-    wait_until_ready(server, accepted.message.name());
+    server.wait_until_ready(accepted.message.name());
     const auto refused = server.create({accept_only(too_fast_at_the_end()), request(path({0, 0, 1e-3 * i, 0}))});
     ASSERT_TRUE(refused.status.ok()) << refused.status.error_message();
     ASSERT_TRUE(eventually([&] { return !server.get(refused.message.name()).status.ok(); }));
@@ -106,7 +106,7 @@ TEST(AcceptOnly, SaysWhyARequestWasRefusedUntilItIsDeleted) {
   const std::vector accepting = {accept_only(too_fast_at_the_end()), waiting[1]};
   const grpc::Status expected = server.create(waiting).status;
   ASSERT_EQ(expected.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_EQ(list(server).message.plans_size(), 0) << "whoever waited knows";
+  EXPECT_EQ(server.list().message.plans_size(), 0) << "whoever waited knows";
 
   const auto accepted = server.create(accepting);
   ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
@@ -119,11 +119,11 @@ TEST(AcceptOnly, SaysWhyARequestWasRefusedUntilItIsDeleted) {
     EXPECT_EQ(status.error_message(), expected.error_message());
     EXPECT_EQ(violations(status), violations(expected));
   }
-  ASSERT_EQ(list(server).message.plans_size(), 1);
-  EXPECT_EQ(list(server).message.plans(0).state(), v1::PLAN_STATE_REFUSED);
+  ASSERT_EQ(server.list().message.plans_size(), 1);
+  EXPECT_EQ(server.list().message.plans(0).state(), v1::PLAN_STATE_REFUSED);
   EXPECT_TRUE(server.remove(name).ok());
   EXPECT_EQ(server.get(name).status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_EQ(list(server).message.plans_size(), 0);
+  EXPECT_EQ(server.list().message.plans_size(), 0);
 }
 
 // Or it would be tried again for ever, and nobody would hear of it.
@@ -142,7 +142,7 @@ TEST(AcceptOnly, WhatIsDamagedInTheStoreIsRefusedOnce) {
     return !found.status.ok();
   }));
   EXPECT_EQ(found.status.error_code(), grpc::StatusCode::INTERNAL) << found.status.error_message();
-  EXPECT_EQ(list(server).message.plans(0).state(), v1::PLAN_STATE_REFUSED);
+  EXPECT_EQ(server.list().message.plans(0).state(), v1::PLAN_STATE_REFUSED);
   EXPECT_TRUE(server.remove("plans/damaged").ok());
 }
 
@@ -150,7 +150,7 @@ TEST(AcceptOnly, RefusesAtOnceWhatNeedsNoPlanning) {
   TestServer server;
   EXPECT_TRUE(refuses_field(server.create({accept_only(options()), request(path({0, 0, 10, 0}, -1))}).status,
                             "path.feed_mm_s, segment 0"));
-  EXPECT_EQ(list(server).message.plans_size(), 0);
+  EXPECT_EQ(server.list().message.plans_size(), 0);
   auto late = request(right_angle());
   late.set_accept_only(true);
   EXPECT_TRUE(refuses_field(server.create({request(options()), late}).status, "accept_only"));
@@ -165,7 +165,7 @@ TEST(AcceptOnly, IsOverWhenThePlanIsDeletedWhileItIsPlanned) {
   ASSERT_TRUE(server.remove(accepted.message.name()).ok());
   EXPECT_TRUE(eventually([&] { return server.create(other).status.ok(); }));
   EXPECT_EQ(server.get(accepted.message.name()).status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_EQ(list(server).message.plans_size(), 1);
+  EXPECT_EQ(server.list().message.plans_size(), 1);
 }
 
 TEST(AcceptOnly, LeavesNothingOfARequestThatTheServerHasNoRoomFor) {
@@ -174,7 +174,7 @@ TEST(AcceptOnly, LeavesNothingOfARequestThatTheServerHasNoRoomFor) {
   ASSERT_TRUE(busy.status.ok()) << busy.status.error_message();
   EXPECT_EQ(server.create({accept_only(options()), request(right_angle())}).status.error_code(),
             grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_EQ(list(server).message.plans_size(), 1);
+  EXPECT_EQ(server.list().message.plans_size(), 1);
   EXPECT_TRUE(server.remove(busy.message.name()).ok());
 }
 

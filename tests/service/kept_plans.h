@@ -1,7 +1,6 @@
-// The shortest ways to plans that a server makes and keeps while nobody waits for them.
+// Requests for plans that a server makes and keeps while nobody waits for them.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "tests/service/test_server.h"
@@ -22,12 +21,5 @@ std::vector<v1::CreatePlanRequest> endless_path();
 v1::PlanOptions blended();
 
 std::vector<v1::CreatePlanRequest> join(v1::CreatePlanRequest first, std::vector<v1::CreatePlanRequest> rest);
-
-Answer<v1::ListPlansResponse> list(TestServer& server, const v1::ListPlansRequest& request = {});
-// All messages of WatchPlan.
-Answer<std::vector<v1::PlanProgress>> watch(TestServer& server, const std::string& name);
-
-// Waits until the plan is READY, and returns it.
-v1::Plan wait_until_ready(TestServer& server, const std::string& name);
 
 }  // namespace kcs::service::test

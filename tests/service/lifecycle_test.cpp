@@ -55,7 +55,7 @@ TEST_F(Lifecycle, ClientThatVanishesWithinAnUploadFreesItsPlace) {
   for (int round = 0; round < 8; ++round) {
     Call call;
     v1::Plan plan;
-    const auto stub = v1::PlanningService::NewStub(server_.new_channel());
+    const auto stub = v1::PlanningService::NewStub(new_channel(server_.address()));
     const auto writer = stub->CreatePlan(&call, &plan);
     writer->Write(request(options()));
     call.TryCancel();

@@ -37,7 +37,7 @@ class ListPlans : public ::testing::Test {
   std::vector<std::string> names_with(const v1::PlanFilter& filter) {
     v1::ListPlansRequest request;
     *request.mutable_filter() = filter;
-    const auto answer = list(server_, request);
+    const auto answer = server_.list(request);
     EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
     return names(answer.message);
   }
@@ -47,7 +47,7 @@ class ListPlans : public ::testing::Test {
 };
 
 TEST_F(ListPlans, OfAnEmptyServerIsEmpty) {
-  const auto answer = list(server_);
+  const auto answer = server_.list();
   EXPECT_TRUE(answer.status.ok());
   EXPECT_EQ(answer.message.plans_size(), 0);
   EXPECT_EQ(answer.message.next_page_token(), "");
@@ -58,7 +58,7 @@ TEST_F(ListPlans, SaysOfEachWhatGetPlanSaysButTheNotices) {
   v1::Plan plan = server_.get(name).message;
   ASSERT_GT(plan.notices_size(), 0);
   plan.clear_notices();
-  const auto answer = list(server_);
+  const auto answer = server_.list();
   ASSERT_EQ(answer.message.plans_size(), 1);
   EXPECT_EQ(answer.message.plans(0).SerializeAsString(), plan.SerializeAsString());
 }
@@ -71,7 +71,7 @@ TEST_F(ListPlans, GivesTheLatestFirstAndEachOnceWhateverComesAndGoesMeanwhile) {
   std::vector<std::string> listed;
   int pages = 0;
   do {
-    const auto page = list(server_, request);
+    const auto page = server_.list(request);
     ASSERT_TRUE(page.status.ok()) << page.status.error_message();
     EXPECT_LE(page.message.plans_size(), 3);
     for (const std::string& name : names(page.message)) listed.push_back(name);
@@ -89,18 +89,18 @@ TEST_F(ListPlans, LastPageThatIsJustFullHasNoTokenForAnother) {
   for (int i = 0; i < 4; ++i) create();
   v1::ListPlansRequest request;
   request.set_page_size(2);
-  request.set_page_token(list(server_, request).message.next_page_token());
-  const auto last = list(server_, request);
+  request.set_page_token(server_.list(request).message.next_page_token());
+  const auto last = server_.list(request);
   EXPECT_EQ(last.message.plans_size(), 2);
   EXPECT_EQ(last.message.next_page_token(), "");
 }
 
 TEST_F(ListPlans, HasAHundredOnAPageUnlessAskedForMore) {
   for (int i = 0; i < 101; ++i) create();
-  EXPECT_EQ(list(server_).message.plans_size(), 100);
+  EXPECT_EQ(server_.list().message.plans_size(), 100);
   v1::ListPlansRequest request;
   request.set_page_size(1000);
-  EXPECT_EQ(list(server_, request).message.plans_size(), 101);
+  EXPECT_EQ(server_.list(request).message.plans_size(), 101);
 }
 
 TEST_F(ListPlans, FiltersByMachine) {
@@ -134,7 +134,7 @@ TEST_F(ListPlans, FiltersByState) {
   filter.set_state(v1::PLAN_STATE_PLANNING);
   EXPECT_EQ(names_with(filter), std::vector{endless.message.name()});
 
-  const auto all = list(server_);
+  const auto all = server_.list();
   ASSERT_EQ(all.message.plans_size(), 3);
   EXPECT_EQ(all.message.plans(1).state(), v1::PLAN_STATE_REFUSED);
   EXPECT_FALSE(all.message.plans(1).has_summary());
@@ -172,7 +172,7 @@ TEST_F(ListPlans, RefusesWhatCannotBe) {
   const auto refused = [this](const auto& spoil) {
     v1::ListPlansRequest request;
     spoil(request);
-    return list(server_, request).status;
+    return server_.list(request).status;
   };
   using List = v1::ListPlansRequest;
   for (const int size : {-1, 1001, std::numeric_limits<int>::min()}) {
@@ -202,38 +202,26 @@ TEST_F(ListPlans, RefusesTokensThatItDidNotGiveForThisList) {
   create();
   v1::ListPlansRequest request;
   request.set_page_size(1);
-  const std::string token = list(server_, request).message.next_page_token();
+  const std::string token = server_.list(request).message.next_page_token();
   ASSERT_NE(token, "");
   for (const std::string& bad : {std::string("x"), token.substr(1), token + token, std::string(100'000, '/')}) {
     request.set_page_token(bad);
-    EXPECT_TRUE(refuses_field(list(server_, request).status, "page_token")) << bad.substr(0, 100);
+    EXPECT_TRUE(refuses_field(server_.list(request).status, "page_token")) << bad.substr(0, 100);
   }
   request.set_page_token(token);
   request.mutable_filter()->set_machine_name("another");
-  EXPECT_TRUE(refuses_field(list(server_, request).status, "page_token"));
+  EXPECT_TRUE(refuses_field(server_.list(request).status, "page_token"));
   request.clear_filter();
   request.set_page_size(2);  // may change from page to page
-  EXPECT_EQ(list(server_, request).message.plans_size(), 1);
+  EXPECT_EQ(server_.list(request).message.plans_size(), 1);
 }
 
 class ListOfOwners : public ::testing::Test {
  protected:
-  static Answer<v1::ListPlansResponse> list_of(SecureClient& client, const v1::ListPlansRequest& request = {}) {
-    Answer<v1::ListPlansResponse> answer;
-    const auto call = client.call();
-    answer.status = client.stub().ListPlans(call.get(), request, &answer.message);
-    return answer;
-  }
-
   static std::string create(SecureClient& client, double length) {
-    v1::Plan plan;
-    const auto call = client.call();
-    const auto writer = client.stub().CreatePlan(call.get(), &plan);
-    writer->Write(request(options()));
-    writer->Write(request(path({0, 0, length, 0})));
-    writer->WritesDone();
-    EXPECT_TRUE(writer->Finish().ok());
-    return plan.name();
+    const auto plan = client.create({request(options()), request(path({0, 0, length, 0}))});
+    EXPECT_TRUE(plan.status.ok()) << plan.status.error_message();
+    return plan.message.name();
   }
 
   TestServer server_{with_tokens({known("cam", {security::Role::kPlan}), known("shop", {security::Role::kPlan}),
@@ -248,10 +236,10 @@ TEST_F(ListOfOwners, HasOnesOwnPlansAndOfAnAdministratorEverybodys) {
   const std::string both = create(cam_, 20);
   const std::string shops = create(shop_, 30);
   EXPECT_EQ(create(shop_, 20), both);
-  EXPECT_EQ(names(list_of(cam_).message), (std::vector{both, cams}));
-  EXPECT_EQ(names(list_of(shop_).message), (std::vector{both, shops}));
-  EXPECT_EQ(names(list_of(admin_).message), (std::vector{shops, both, cams})) << "each once, when it came first";
-  EXPECT_EQ(list_of(shop_).message.plans(0).summary().path_length_mm(), 20);
+  EXPECT_EQ(names(cam_.list().message), (std::vector{both, cams}));
+  EXPECT_EQ(names(shop_.list().message), (std::vector{both, shops}));
+  EXPECT_EQ(names(admin_.list().message), (std::vector{shops, both, cams})) << "each once, when it came first";
+  EXPECT_EQ(shop_.list().message.plans(0).summary().path_length_mm(), 20);
 }
 
 TEST_F(ListOfOwners, DoesNotTakeAnotherOnesToken) {
@@ -261,9 +249,9 @@ TEST_F(ListOfOwners, DoesNotTakeAnotherOnesToken) {
   }
   v1::ListPlansRequest request;
   request.set_page_size(1);
-  request.set_page_token(list_of(cam_, request).message.next_page_token());
-  EXPECT_TRUE(refuses_field(list_of(shop_, request).status, "page_token"));
-  EXPECT_EQ(list_of(cam_, request).message.plans_size(), 1);
+  request.set_page_token(cam_.list(request).message.next_page_token());
+  EXPECT_TRUE(refuses_field(shop_.list(request).status, "page_token"));
+  EXPECT_EQ(cam_.list(request).message.plans_size(), 1);
 }
 
 }  // namespace

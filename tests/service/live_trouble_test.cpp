@@ -88,7 +88,7 @@ TEST_F(LiveTrouble, MessageThatCannotBeParsedIsNotTakenForTheEnd) {
   Call call;
   grpc::internal::RpcMethod method("/kcs.v1.PlanningService/PlanLive", grpc::internal::RpcMethod::BIDI_STREAMING);
   using Stream = grpc::ClientReaderWriter<grpc::ByteBuffer, v1::PlanLiveResponse>;
-  const auto channel = server_.new_channel();
+  const auto channel = new_channel(server_.address());
   const std::unique_ptr<Stream> stream(
       grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, v1::PlanLiveResponse>::Create(channel.get(), method,
                                                                                                 &call));

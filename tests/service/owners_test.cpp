@@ -18,7 +18,7 @@ class Owners : public ::testing::Test {
  protected:
   // What each way to a plan answers.
   static std::vector<grpc::Status> all_ways(SecureClient& client, const std::string& name) {
-    return {client.get(name), client.stream(name), client.corners(name), client.remove(name)};
+    return {client.get(name).status, client.stream(name), client.corners(name).status, client.remove(name)};
   }
 
   TestServer server_{with_tokens({known("cam", {Role::kPlan, Role::kStream}),
@@ -37,24 +37,24 @@ TEST_F(Owners, AnotherOnesPlanIsAnsweredLikeOneThatIsNotThere) {
     EXPECT_EQ(strangers[way].error_message(), nobodys[way].error_message()) << way;
   }
   for (const grpc::Status& status : all_ways(cam_, name)) EXPECT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(cam_.get(name).error_code(), NOT_FOUND) << "it was deleted";
+  EXPECT_EQ(cam_.get(name).status.error_code(), NOT_FOUND) << "it was deleted";
 }
 
 TEST_F(Owners, SamePlanOfTwoStaysWhenOneDeletesIt) {
   const std::string name = cam_.create().message.name();
   EXPECT_EQ(shop_.create().message.name(), name);
   EXPECT_TRUE(cam_.remove(name).ok());
-  EXPECT_EQ(cam_.get(name).error_code(), NOT_FOUND);
+  EXPECT_EQ(cam_.get(name).status.error_code(), NOT_FOUND);
   for (const grpc::Status& status : all_ways(shop_, name)) EXPECT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(admin_.get(name).error_code(), NOT_FOUND) << "it is nobody's";
+  EXPECT_EQ(admin_.get(name).status.error_code(), NOT_FOUND) << "it is nobody's";
 }
 
 TEST_F(Owners, AdministratorSeesAndDeletesEverybodysPlans) {
   const std::string name = cam_.create().message.name();
   shop_.create();
   for (const grpc::Status& status : all_ways(admin_, name)) EXPECT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(cam_.get(name).error_code(), NOT_FOUND);
-  EXPECT_EQ(shop_.get(name).error_code(), NOT_FOUND);
+  EXPECT_EQ(cam_.get(name).status.error_code(), NOT_FOUND);
+  EXPECT_EQ(shop_.get(name).status.error_code(), NOT_FOUND);
 }
 
 TEST_F(Owners, KeepWhatMemoryHasNoRoomFor) {
@@ -63,17 +63,11 @@ TEST_F(Owners, KeepWhatMemoryHasNoRoomFor) {
   SecureClient cam = client_of(small, "cam");
   SecureClient shop = client_of(small, "shop");
   const std::string name = cam.create().message.name();
-  v1::Plan other;
-  const auto context = cam.call();
-  const auto writer = cam.stub().CreatePlan(context.get(), &other);
-  writer->Write(request(options()));
-  writer->Write(request(path({0, 0, 5, 5})));
-  writer->WritesDone();
-  ASSERT_TRUE(writer->Finish().ok());
-  EXPECT_TRUE(cam.get(name).ok());
-  EXPECT_EQ(shop.get(name).error_code(), NOT_FOUND);
+  ASSERT_TRUE(cam.create({request(options()), request(path({0, 0, 5, 5}))}).status.ok());
+  EXPECT_TRUE(cam.get(name).status.ok());
+  EXPECT_EQ(shop.get(name).status.error_code(), NOT_FOUND);
   EXPECT_EQ(shop.create().message.name(), name);
-  EXPECT_TRUE(shop.get(name).ok());
+  EXPECT_TRUE(shop.get(name).status.ok());
 }
 
 class ClientCertificates : public ::testing::Test {
@@ -103,10 +97,10 @@ TEST_F(ClientCertificates, SayWhoCalls) {
   TestServer server(options());
   SecureClient cam = client(server, "cam");
   const std::string name = cam.create().message.name();
-  EXPECT_TRUE(cam.get(name).ok());
+  EXPECT_TRUE(cam.get(name).status.ok());
   EXPECT_EQ(cam.stream(name).error_code(), PERMISSION_DENIED);
   SecureClient gateway = client(server, "whatever", "DNS:gateway-1.example.com");
-  EXPECT_EQ(gateway.get(name).error_code(), NOT_FOUND);
+  EXPECT_EQ(gateway.get(name).status.error_code(), NOT_FOUND);
   EXPECT_EQ(gateway.create().message.name(), name);
   EXPECT_TRUE(gateway.stream(name).ok());
 }

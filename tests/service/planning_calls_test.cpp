@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/service/kept_plans.h"
 #include "tests/service/live_client.h"
-#include "tests/service/test_server.h"
 
 namespace kcs::service::test {
 namespace {
@@ -34,29 +34,15 @@ void expect_prompt(std::vector<steady_clock::duration> times) {
 }
 
 // Planning is given up long before it would have ended.
-constexpr int kManyPoints = 100'000, kManyPieces = 9;
 constexpr seconds kSoon{5};
-
-v1::PathChunk zigzag(int points) {
-  v1::PathChunk chunk;
-  chunk.add_feed_mm_s(100);
-  for (int i = 0; i < points; ++i) {
-    chunk.add_points_mm(10 * (i % 1000));
-    chunk.add_points_mm(10 * (i % 2));
-  }
-  return chunk;
-}
 
 // A call of CreatePlan whose planning takes so long that nobody waits for it.
 class EndlessCall {
  public:
   explicit EndlessCall(TestServer& server, milliseconds deadline = kDeadline) {
     call_.set_deadline(std::chrono::system_clock::now() + deadline);
-    v1::PlanOptions slow = options();
-    slow.set_strategy(v1::CORNER_STRATEGY_BLENDED);
     writer_ = server.stub().CreatePlan(&call_, &plan_);
-    writer_->Write(request(slow));
-    for (int i = 0; i < kManyPieces; ++i) writer_->Write(request(zigzag(kManyPoints)));
+    for (const auto& message : join(request(blended()), endless_path())) writer_->Write(message);
     writer_->WritesDone();
   }
 
@@ -73,14 +59,9 @@ ServerOptions one_thread(const Caps& caps = {}) { return {.planning_threads = 1,
 
 // Of the google.rpc.RetryInfo in a refusal; nothing without one.
 std::optional<milliseconds> retry_delay(const grpc::Status& status) {
-  google::rpc::Status details;
-  details.ParseFromString(status.error_details());
-  for (const google::protobuf::Any& detail : details.details()) {
-    google::rpc::RetryInfo info;
-    if (!detail.UnpackTo(&info)) continue;
-    return milliseconds(google::protobuf::util::TimeUtil::DurationToMilliseconds(info.retry_delay()));
-  }
-  return {};
+  const auto info = find_detail<google::rpc::RetryInfo>(status);
+  if (!info) return {};
+  return milliseconds(google::protobuf::util::TimeUtil::DurationToMilliseconds(info->retry_delay()));
 }
 
 ::testing::AssertionResult is_planned_soon(TestServer& server) {

@@ -214,7 +214,7 @@ TEST_F(Refusals, MessageThatIsNoCreatePlanRequest) {
   for (const std::string broken : {"garbage", "\xff\xff\xff\xff", "\x12\x7f"}) {
     Call call;
     v1::Plan plan;
-    const auto channel = server_.new_channel();
+    const auto channel = new_channel(server_.address());
     const std::unique_ptr<grpc::ClientWriter<grpc::ByteBuffer>> writer(
         grpc::internal::ClientWriterFactory<grpc::ByteBuffer>::Create(channel.get(), method, &call, &plan));
     writer->Write(bytes(request(options()).SerializeAsString()));

@@ -37,7 +37,7 @@ TEST(SameRequest, OfManyAtTheSameMomentIsPlannedOnce) {
     });
   }
   for (std::thread& client : clients) client.join();
-  const v1::Plan made = wait_until_ready(server, answers[1].message.name());
+  const v1::Plan made = server.wait_until_ready(answers[1].message.name());
   for (int i = 0; i < kClients; ++i) {
     const auto& answer = answers[static_cast<std::size_t>(i)];
     ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
@@ -46,7 +46,7 @@ TEST(SameRequest, OfManyAtTheSameMomentIsPlannedOnce) {
     EXPECT_TRUE(!waited || answer.message.SerializeAsString() == made.SerializeAsString());
   }
   EXPECT_EQ(times_planned(log, made.name()), 1U);
-  EXPECT_EQ(list(server).message.plans_size(), 1);
+  EXPECT_EQ(server.list().message.plans_size(), 1);
 }
 
 TEST(SameRequest, OfManyOwnersBelongsToEachOfThem) {
@@ -59,13 +59,14 @@ TEST(SameRequest, OfManyOwnersBelongsToEachOfThem) {
     clients.emplace_back([&, i] {
       SecureClient client = client_of(server, "owner" + std::to_string(i));
       // Connected before all start at the same moment; gRPC fails now and then to connect many channels at once.
-      EXPECT_TRUE(eventually([&] { return client.get("plans/none").error_code() == grpc::StatusCode::NOT_FOUND; }));
+      EXPECT_TRUE(
+          eventually([&] { return client.get("plans/none").status.error_code() == grpc::StatusCode::NOT_FOUND; }));
       together.arrive_and_wait();
       const auto plan = client.create();
       EXPECT_TRUE(plan.status.ok()) << plan.status.error_message();
-      EXPECT_TRUE(client.get(plan.message.name()).ok());
+      EXPECT_TRUE(client.get(plan.message.name()).status.ok());
       EXPECT_TRUE(client.remove(plan.message.name()).ok());
-      EXPECT_EQ(client.get(plan.message.name()).error_code(), grpc::StatusCode::NOT_FOUND);
+      EXPECT_EQ(client.get(plan.message.name()).status.error_code(), grpc::StatusCode::NOT_FOUND);
     });
   }
   for (std::thread& client : clients) client.join();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <grpcpp/grpcpp.h>
-#include <kcs/v1/planning.grpc.pb.h>
 
 #include <memory>
 #include <string>
@@ -24,33 +23,24 @@ std::shared_ptr<grpc::ChannelCredentials> tls(const Authority& authority, const 
 security::KnownToken known(const std::string& owner, security::Roles roles);
 ServerOptions with_tokens(std::vector<security::KnownToken> tokens);
 
-class SecureClient {
+class SecureClient : public TestClient {
  public:
   // On a connection of its own. token: empty: none is sent.
   SecureClient(const std::string& address, const std::shared_ptr<grpc::ChannelCredentials>& credentials,
                std::string token = "");
-
-  // A call with the client's token.
-  std::unique_ptr<Call> call() const;
-  v1::PlanningService::Stub& stub() { return *stub_; }
-  std::shared_ptr<grpc::Channel> channel() { return channel_; }
 
   // Asks for a plan that nobody has. NOT_FOUND: the server let us in.
   grpc::Status knock();
   // The common name in the server's certificate, as the last knock saw it.
   const std::string& server_name() const { return server_name_; }
 
+  using TestClient::create;
   // Plans the right angle of the worked example.
   Answer<v1::Plan> create();
-  grpc::Status get(const std::string& name);
-  grpc::Status remove(const std::string& name);
+  // All setpoints of a plan.
   grpc::Status stream(const std::string& name);
-  grpc::Status corners(const std::string& name);
 
  private:
-  std::string token_;
-  std::shared_ptr<grpc::Channel> channel_;
-  std::unique_ptr<v1::PlanningService::Stub> stub_;
   std::string server_name_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 class RawCall {
  public:
   RawCall(const TestServer& server, const char* method)
-      : channel_(server.new_channel()),
+      : channel_(new_channel(server.address())),
         stream_(grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, grpc::ByteBuffer>::Create(
             channel_.get(), grpc::internal::RpcMethod(method, grpc::internal::RpcMethod::BIDI_STREAMING), &call_)) {}
 

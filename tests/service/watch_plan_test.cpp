@@ -17,7 +17,7 @@ TEST(WatchPlan, TellsOfProgressUntilThePlanIsReady) {
   TestServer server({.planning_threads = 1});
   const auto accepted = server.create({accept_only(options()), request(long_path())});
   ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
-  const auto progress = watch(server, accepted.message.name());
+  const auto progress = server.watch(accepted.message.name());
   ASSERT_TRUE(progress.status.ok()) << progress.status.error_message();
   const auto& told = progress.message;
   ASSERT_GE(told.size(), 2U);
@@ -45,7 +45,7 @@ TEST(WatchPlan, EndsWithTheCallThatWaitsForThePlan) {
     ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
     steady_clock::time_point watched;
     std::thread watcher([&] {
-      EXPECT_TRUE(watch(server, accepted.message.name()).status.ok());
+      EXPECT_TRUE(server.watch(accepted.message.name()).status.ok());
       watched = steady_clock::now();
     });
     EXPECT_TRUE(server.create({request(options()), request(long_path())}).status.ok());
@@ -84,7 +84,7 @@ TEST(WatchPlan, TellsHowManyGoBefore) {
 TEST(WatchPlan, OfAReadyOneSaysSoAndEnds) {
   TestServer server;
   const std::string name = server.create({request(options()), request(right_angle())}).message.name();
-  const auto progress = watch(server, name);
+  const auto progress = server.watch(name);
   EXPECT_TRUE(progress.status.ok());
   ASSERT_EQ(progress.message.size(), 1U);
   EXPECT_EQ(progress.message[0].state(), v1::PLAN_STATE_READY);
@@ -100,7 +100,7 @@ TEST(WatchPlan, OfOneThatIsRefusedEndsWithWhatCreatePlanSays) {
   const auto accepted = server.create({accept_only(too_fast_at_the_end()), path_of_it});
   ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
   for (int round = 0; round < 2; ++round) {  // while it is planned, perhaps, and afterwards
-    const auto progress = watch(server, accepted.message.name());
+    const auto progress = server.watch(accepted.message.name());
     EXPECT_TRUE(refuses_field(progress.status, "options.end_speed_mm_s"));
     EXPECT_EQ(progress.status.error_message(), expected.error_message());
     EXPECT_EQ(violations(progress.status), violations(expected));
@@ -112,26 +112,18 @@ TEST(WatchPlan, OfOneThatIsRefusedEndsWithWhatCreatePlanSays) {
 
 TEST(WatchPlan, OfNoneIsRefused) {
   TestServer server;
-  EXPECT_EQ(watch(server, "plans/none").status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_TRUE(refuses_field(watch(server, "").status, "name"));
+  EXPECT_EQ(server.watch("plans/none").status.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_TRUE(refuses_field(server.watch("").status, "name"));
 }
 
 TEST(WatchPlan, OfSomebodyElsesIsAnsweredLikeOneThatIsNotThere) {
   TestServer server(with_tokens({known("cam", {security::Role::kPlan}), known("shop", {security::Role::kPlan})}));
   SecureClient cam = client_of(server, "cam");
   SecureClient shop = client_of(server, "shop");
-  const auto watch_as = [](SecureClient& client, const std::string& name) {
-    const auto call = client.call();
-    v1::WatchPlanRequest request;
-    request.set_name(name);
-    const auto reader = client.stub().WatchPlan(call.get(), request);
-    for (v1::PlanProgress progress; reader->Read(&progress);) continue;
-    return reader->Finish();
-  };
   const std::string name = cam.create().message.name();
-  EXPECT_TRUE(watch_as(cam, name).ok());
-  EXPECT_EQ(watch_as(shop, name).error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_EQ(watch_as(shop, name).error_message(), watch_as(shop, "plans/none").error_message());
+  EXPECT_TRUE(cam.watch(name).status.ok());
+  EXPECT_EQ(shop.watch(name).status.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(shop.watch(name).status.error_message(), shop.watch("plans/none").status.error_message());
 }
 
 TEST(WatchPlan, EndsWhenThePlanIsDeletedAndWhenTheClientGoes) {

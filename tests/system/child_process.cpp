@@ -89,4 +89,13 @@ std::string ChildProcess::errors() const {
   return text.str();
 }
 
+Result run(const std::vector<std::string>& arguments) {
+  ChildProcess process(arguments);
+  Result result;
+  for (std::string line = process.read_line(); !line.empty(); line = process.read_line()) result.output += line + "\n";
+  result.exit_code = process.wait();
+  result.errors = process.errors();
+  return result;
+}
+
 }  // namespace kcs::test

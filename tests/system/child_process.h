@@ -38,4 +38,14 @@ class ChildProcess {
   std::string errors_file_;
 };
 
+// What a program did, once it has ended.
+struct Result {
+  int exit_code = -1;
+  std::string output;  // up to the first empty line
+  std::string errors;
+};
+
+// Runs a program until it ends by itself; arguments[0] is the program.
+Result run(const std::vector<std::string>& arguments);
+
 }  // namespace kcs::test

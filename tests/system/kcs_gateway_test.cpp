@@ -15,6 +15,7 @@
 
 #include "tests/files/temporary_folder.h"
 #include "tests/system/child_process.h"
+#include "tests/system/kcsd_process.h"
 
 namespace kcs::test {
 namespace {
@@ -44,18 +45,14 @@ class Gateway : public testing::Test {
   std::string address() const { return "unix:" + folder_.path("socket"); }
 
   // database: "memory", or what a restarted server finds again.
-  std::unique_ptr<ChildProcess> start_server(const std::string& database = "memory") const {
-    auto server =
-        std::make_unique<ChildProcess>(std::vector<std::string>{KCSD, "--listen", address(), "--database", database});
-    const std::string greeting = server->read_line();
-    if (!greeting.starts_with("kcsd listens on ")) throw std::runtime_error("kcsd said \"" + greeting + "\"");
-    return server;
+  std::unique_ptr<KcsdProcess> start_server(const std::string& database = "memory") const {
+    return std::make_unique<KcsdProcess>(std::vector<std::string>{KCSD, "--listen", address(), "--database", database});
   }
 
   // As a crash would end it.
-  static void crash(ChildProcess& server) {
-    server.send_signal(SIGKILL);
-    server.wait();
+  static void crash(KcsdProcess& server) {
+    server.process().send_signal(SIGKILL);
+    server.process().wait();
   }
 
   std::unique_ptr<ChildProcess> start_gateway(const std::vector<std::string>& arguments) const {
@@ -195,9 +192,9 @@ TEST_F(Gateway, ServerThatHangsIsReportedAsStarvation) {
   const fs::path recording = folder_.path("run.csv");
   const auto gateway = start_gateway(with({long_program(), "--buffer", "0.2", "--record", recording.string()}));
   wait_until_moving(recording);
-  server->send_signal(SIGSTOP);
+  server->process().send_signal(SIGSTOP);
   const auto report = report_of(*gateway, kStarved);
-  server->send_signal(SIGCONT);
+  server->process().send_signal(SIGCONT);
   EXPECT_NE(report["setpoints_ended"].get<std::string>().find("sent nothing"), std::string::npos) << report;
 }
 

@@ -16,6 +16,7 @@
 
 #include "tests/files/temporary_folder.h"
 #include "tests/system/child_process.h"
+#include "tests/system/kcsd_process.h"
 
 namespace kcs::test {
 namespace {
@@ -27,12 +28,6 @@ using Clock = std::chrono::steady_clock;
 // Two legs of 10 mm with a right angle between them, and a quarter of a circle.
 constexpr const char* kProgram = "G21 G90 G64\nG1 X10 Y0 F6000\nG1 X10 Y10\nG2 X20 Y20 I10 J0\n";
 
-struct Result {
-  int exit_code = -1;
-  std::string output;
-  std::string errors;
-};
-
 class Kcsctl : public testing::Test {
  protected:
   Kcsctl() { folder_.write("part.ngc", kProgram); }
@@ -42,13 +37,7 @@ class Kcsctl : public testing::Test {
 
   static Result run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), KCSCTL);
-    ChildProcess process(arguments);
-    Result result;
-    for (std::string line = process.read_line(); !line.empty(); line = process.read_line())
-      result.output += line + "\n";
-    result.exit_code = process.wait();
-    result.errors = process.errors();
-    return result;
+    return kcs::test::run(arguments);
   }
 
   static std::string read(const std::string& file) {
@@ -199,10 +188,9 @@ TEST_F(Kcsctl, SpeedsAtTheEndsAreTaken) {
 // As Ctrl-C does it. `env` sees to it that kcsctl listens to it, however the tests were started.
 TEST_F(Kcsctl, AnInterruptedStreamLeavesNothingBehindAndIsOverForTheServer) {
   std::ofstream(path("far.ngc")) << "G1 X100000 F60\n";  // more than a day: ten thousand million setpoints
-  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0"});
-  const std::string greeting = kcsd.read_line();
+  KcsdProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0"});
   ChildProcess kcsctl({"/usr/bin/env", "--default-signal=INT", KCSCTL, "stream", path("far.ngc"), "-o", path("out.csv"),
-                       "--period", "1e-5", "--server", greeting.substr(greeting.rfind(' ') + 1)});
+                       "--period", "1e-5", "--server", kcsd.address()});
   const fs::path half = path("out.csv." + std::to_string(kcsctl.pid()) + ".part");
   const auto deadline = Clock::now() + std::chrono::seconds(20);
   while (!(fs::exists(half) && fs::file_size(half) > 1'000'000)) {
@@ -214,8 +202,8 @@ TEST_F(Kcsctl, AnInterruptedStreamLeavesNothingBehindAndIsOverForTheServer) {
   EXPECT_EQ(files(), 2) << "the two programs, nothing else";
 
   const auto begin = Clock::now();
-  kcsd.send_signal(SIGTERM);
-  EXPECT_EQ(kcsd.wait(), 0);
+  kcsd.process().send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.process().wait(), 0);
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(3)) << "kcsd waited for the interrupted stream";
 }
 
@@ -246,21 +234,19 @@ TEST_F(Kcsctl, AMissingServerIsNamedWithTheRemedy) {
 }
 
 TEST_F(Kcsctl, TheServiceInsideAndARealServerGiveTheSameBytes) {
-  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0"});
-  const std::string greeting = kcsd.read_line();
-  const std::string address = greeting.substr(greeting.rfind(' ') + 1);
+  KcsdProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0"});
   const std::vector<std::vector<std::string>> commands = {
       {"plan", "--json", program()}, {"corners", "--json", program()}, {"stream", program(), "-o", "-"}};
   for (std::vector<std::string> command : commands) {
     const Result inside = run(command);
-    command.insert(command.end(), {"--server", address});
+    command.insert(command.end(), {"--server", kcsd.address()});
     const Result remote = run(command);
     EXPECT_EQ(inside.exit_code, 0) << inside.errors;
     EXPECT_EQ(remote.exit_code, 0) << remote.errors;
     EXPECT_EQ(inside.output, remote.output) << command[0];
   }
-  kcsd.send_signal(SIGTERM);
-  EXPECT_EQ(kcsd.wait(), 0);
+  kcsd.process().send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.process().wait(), 0);
 }
 
 TEST_F(Kcsctl, PlotDrawsAPicture) {

@@ -21,10 +21,7 @@ std::vector<v1::CreatePlanRequest> large_request(std::uint32_t number) {
     for (int i = 0; i < 200; ++i) program += static_cast<char>('0' + random() % 64);
     program += ")\n";
   }
-  std::vector<v1::CreatePlanRequest> messages(2);
-  *messages[0].mutable_options() = mill();
-  messages[1].set_gcode(program);
-  return messages;
+  return {request(options(3)), gcode(program)};
 }
 
 class DiskFull : public ::testing::Test {
@@ -54,14 +51,14 @@ class DiskFull : public ::testing::Test {
       EXPECT_EQ(kcsd.get(plan.name()).message.SerializeAsString(), plan.SerializeAsString());
       EXPECT_TRUE(kcsd.stream(setpoints(plan.name(), 0.01)).status.ok());
     }
-    EXPECT_EQ(kcsd.list().message.size(), kept.size());
+    EXPECT_EQ(kcsd.list_all().message.size(), kept.size());
     EXPECT_EQ(kcsd.page("/readyz").status, 200) << "what is there can be read";
 
     std::filesystem::remove(filler());
     const auto again = kcsd.create(large_request(41));
     EXPECT_TRUE(again.status.ok()) << again.status.error_message();
     EXPECT_TRUE(kcsd.remove(kept.front().name()).ok());
-    EXPECT_EQ(kcsd.list().message.size(), kept.size());
+    EXPECT_EQ(kcsd.list_all().message.size(), kept.size());
   }
 
   SmallDisk disk_;

@@ -98,7 +98,7 @@ TEST_F(HostileCalls, NumbersThatAreNoneAreRefusedInStreamsAndLists) {
   v1::StreamSetpointsRequest stream = setpoints(plan.name(), 0.1);
   spoil_all(stream, [&] { return kcsd_.stream(stream).status; });
   v1::PlanLiveRequest live;
-  *live.mutable_options() = mill();
+  *live.mutable_options() = options(3);
   live.mutable_output()->set_period_s(0.1);
   spoil_all(*live.mutable_output(), [&] {
     Call call;
@@ -190,7 +190,7 @@ TEST_F(HostileCalls, CancelledAtAnyMomentLeaveNothingBehind) {
   for (unsigned client = 0; client < kThreads; ++client) {
     clients.emplace_back([&, client] {
       std::mt19937 random(52 + client);
-      const auto stub = kcsd_.new_stub();
+      const auto stub = v1::PlanningService::NewStub(new_channel(kcsd_.address()));
       for (unsigned number = 0; number < kCalls; ++number) {
         const std::chrono::microseconds life(random() % 20'000);
         Call call;
@@ -213,7 +213,7 @@ TEST_F(HostileCalls, CancelledAtAnyMomentLeaveNothingBehind) {
         } else {
           const auto session = stub->PlanLive(&call);
           v1::PlanLiveRequest live;
-          *live.mutable_options() = mill();
+          *live.mutable_options() = options(3);
           live.mutable_output()->set_period_s(1e-4);
           session->Write(live);
           live.Clear();

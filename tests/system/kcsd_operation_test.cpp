@@ -1,18 +1,13 @@
 // kcsd as systemd, monitoring and collectors of logs deal with it.
 #include <arpa/inet.h>
-#include <grpcpp/grpcpp.h>
 #include <grpcpp/impl/rpc_method.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
-#include <kcs/v1/planning.grpc.pb.h>
 #include <netinet/in.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -20,30 +15,18 @@
 #include <thread>
 #include <vector>
 
-#include "tests/system/child_process.h"
+#include "tests/rpc/test_client.h"
+#include "tests/system/config_file.h"
+#include "tests/system/kcsd_process.h"
 #include "tests/systemd/notify_socket.h"
 
 namespace kcs::test {
 namespace {
 
-constexpr std::chrono::seconds kDeadline{60};
-
-// What the process says first: where it listens.
-std::string address_of(ChildProcess& kcsd) {
-  constexpr std::string_view kGreeting = "kcsd listens on ";
-  const std::string greeting = kcsd.read_line();
-  EXPECT_TRUE(greeting.starts_with(kGreeting)) << greeting << kcsd.errors();
-  return greeting.substr(std::min(greeting.size(), kGreeting.size()));
-}
-
 // Asks for a plan that is not there: the status that a serving kcsd answers is NOT_FOUND.
 grpc::StatusCode ask(const std::string& address) {
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  const auto stub =
-      v1::PlanningService::NewStub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
-  grpc::ClientContext call;
-  call.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  const auto stub = v1::PlanningService::NewStub(new_channel(address));
+  Call call;
   call.set_wait_for_ready(true);
   v1::GetPlanRequest request;
   request.set_name("plans/none");
@@ -51,32 +34,17 @@ grpc::StatusCode ask(const std::string& address) {
   return stub->GetPlan(&call, request, &plan).error_code();
 }
 
-// Where it shows its figures, from its log.
-std::string http_address_of(const ChildProcess& kcsd) {
-  constexpr std::string_view kBefore = "figures on http://";
-  const auto end = std::chrono::steady_clock::now() + kDeadline;
-  while (std::chrono::steady_clock::now() < end) {
-    const std::string log = kcsd.errors();
-    const std::size_t begin = log.find(kBefore);
-    const std::size_t slash = begin == std::string::npos ? begin : log.find("/metrics", begin);
-    if (slash != std::string::npos) return log.substr(begin + kBefore.size(), slash - begin - kBefore.size());
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  ADD_FAILURE() << "no address of the figures: " << kcsd.errors();
-  return "127.0.0.1:0";
-}
-
 TEST(KcsdUnderSystemd, TellsWhenItIsReadyAliveAndStopping) {
   const NotifySocket manager;
-  ChildProcess kcsd({"/usr/bin/env", "NOTIFY_SOCKET=" + manager.path(), "WATCHDOG_USEC=200000", KCSD, "--database",
-                     "memory", "--listen", "127.0.0.1:0"});
-  EXPECT_EQ(manager.receive(), "READY=1\nSTATUS=serves on " + address_of(kcsd));
+  KcsdProcess kcsd({"/usr/bin/env", "NOTIFY_SOCKET=" + manager.path(), "WATCHDOG_USEC=200000", KCSD, "--database",
+                    "memory", "--listen", "127.0.0.1:0"});
+  EXPECT_EQ(manager.receive(), "READY=1\nSTATUS=serves on " + kcsd.address());
   for (int i = 0; i < 3; ++i) EXPECT_EQ(manager.receive(), "WATCHDOG=1");
-  kcsd.send_signal(SIGTERM);
+  kcsd.process().send_signal(SIGTERM);
   std::string last = manager.receive();
   while (last == "WATCHDOG=1") last = manager.receive();
   EXPECT_EQ(last, "STOPPING=1\nSTATUS=lets running requests finish");
-  EXPECT_EQ(kcsd.wait(), 0);
+  EXPECT_EQ(kcsd.process().wait(), 0);
 }
 
 // A socket of the loopback that listens, as systemd keeps it for a service across its restarts.
@@ -114,25 +82,25 @@ class ListeningSocket {
 
 TEST(KcsdUnderSystemd, ServesOnASocketThatItIsHanded) {
   const ListeningSocket socket;
-  ChildProcess kcsd(socket.command());
-  EXPECT_EQ(address_of(kcsd), socket.address());
+  KcsdProcess kcsd(socket.command());
+  EXPECT_EQ(kcsd.address(), socket.address());
   for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(socket.address()), grpc::StatusCode::NOT_FOUND);
-  kcsd.send_signal(SIGTERM);
-  EXPECT_EQ(kcsd.wait(), 0);
+  kcsd.process().send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.process().wait(), 0);
 }
 
 TEST(KcsdUnderSystemd, ClientThatComesBetweenTwoServersWaitsForTheNext) {
   const ListeningSocket socket;
   {
-    ChildProcess first(socket.command());
-    EXPECT_EQ(address_of(first), socket.address());
+    KcsdProcess first(socket.command());
+    EXPECT_EQ(first.address(), socket.address());
     EXPECT_EQ(ask(socket.address()), grpc::StatusCode::NOT_FOUND);
-    first.send_signal(SIGTERM);
-    EXPECT_EQ(first.wait(), 0);
+    first.process().send_signal(SIGTERM);
+    EXPECT_EQ(first.process().wait(), 0);
   }
   grpc::StatusCode answer = grpc::StatusCode::UNKNOWN;
   std::thread client([&] { answer = ask(socket.address()); });
-  ChildProcess second(socket.command());
+  const KcsdProcess second(socket.command());
   client.join();
   EXPECT_EQ(answer, grpc::StatusCode::NOT_FOUND);
 }
@@ -144,9 +112,9 @@ TEST(KcsdUnderSystemd, SaysWhatIsMissingWithoutASocket) {
 }
 
 TEST(KcsdUnderMonitoring, ShowsItsFiguresAndItsState) {
-  ChildProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--http-listen", "127.0.0.1:0"});
-  EXPECT_EQ(ask(address_of(kcsd)), grpc::StatusCode::NOT_FOUND);
-  httplib::Client client("http://" + http_address_of(kcsd));
+  KcsdProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--http-listen", "127.0.0.1:0"});
+  EXPECT_EQ(ask(kcsd.address()), grpc::StatusCode::NOT_FOUND);
+  httplib::Client client("http://" + http_address_of(kcsd.process()));
   client.set_read_timeout(kDeadline);
   for (const std::string path : {"/healthz", "/readyz"}) {
     const auto answer = client.Get(path);
@@ -168,15 +136,14 @@ TEST(KcsdUnderMonitoring, PortInUseIsSaidPlainly) {
 }
 
 TEST(KcsdLog, IsJsonLineByLineIfAskedFor) {
-  ChildProcess kcsd(
+  KcsdProcess kcsd(
       {KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-format", "json", "--log-level", "debug"});
-  const std::string address = address_of(kcsd);
-  EXPECT_EQ(ask(address), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(ask(kcsd.address()), grpc::StatusCode::NOT_FOUND);
   // What speaks no gRPC makes the library write lines of its own.
-  httplib::Client("http://" + address).Get("/\"quoted\"");
-  kcsd.send_signal(SIGTERM);
-  EXPECT_EQ(kcsd.wait(), 0);
-  std::istringstream log(kcsd.errors());
+  httplib::Client("http://" + kcsd.address()).Get("/\"quoted\"");
+  kcsd.process().send_signal(SIGTERM);
+  EXPECT_EQ(kcsd.process().wait(), 0);
+  std::istringstream log(kcsd.process().errors());
   int calls = 0;
   for (std::string line; std::getline(log, line);) {
     const auto fields = nlohmann::json::parse(line, nullptr, false);
@@ -188,19 +155,15 @@ TEST(KcsdLog, IsJsonLineByLineIfAskedFor) {
       EXPECT_EQ(fields["request_id"].get<std::string>().size(), 32U);
     }
   }
-  EXPECT_EQ(calls, 1) << kcsd.errors();
+  EXPECT_EQ(calls, 1) << kcsd.process().errors();
 }
 
 TEST(KcsdChannelz, TellsWhoIsConnectedIfAskedFor) {
-  const std::string file = ::testing::TempDir() + "kcsd-channelz-" + std::to_string(getpid()) + ".toml";
-  std::ofstream(file) << "[observe]\nchannelz = true\n";
-  ChildProcess kcsd({KCSD, "--database", "memory", "--config", file, "--listen", "127.0.0.1:0"});
-  const std::string address = address_of(kcsd);
-  unlink(file.c_str());
+  const ConfigFile config("[observe]\nchannelz = true\n");
+  KcsdProcess kcsd({KCSD, "--database", "memory", "--config", config.path(), "--listen", "127.0.0.1:0"});
   // In raw bytes, as its messages are in no header of the libraries.
-  const auto channel = grpc::CreateChannel(address, grpc::InsecureChannelCredentials());
-  grpc::ClientContext call;
-  call.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  const auto channel = new_channel(kcsd.address());
+  Call call;
   const auto stream = std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer>>(
       grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, grpc::ByteBuffer>::Create(
           channel.get(),

@@ -45,8 +45,8 @@ TEST_F(Replicas, MakeOnePlanOfTheSameRequestAtTheSameMoment) {
       EXPECT_EQ(of_one_client[round].SerializeAsString(), plans[0][round].SerializeAsString());
     }
   }
-  EXPECT_EQ(one.list().message.size(), kRounds);
-  EXPECT_EQ(other.list().message.size(), kRounds);
+  EXPECT_EQ(one.list_all().message.size(), kRounds);
+  EXPECT_EQ(other.list_all().message.size(), kRounds);
 }
 
 TEST_F(Replicas, StreamWhatTheOtherHasMadeAndForgetWhatItHasForgotten) {
@@ -60,7 +60,7 @@ TEST_F(Replicas, StreamWhatTheOtherHasMadeAndForgetWhatItHasForgotten) {
   const auto streamed = other.stream(request);
   EXPECT_TRUE(streamed.status.ok()) << streamed.status.error_message();
   EXPECT_FALSE(expected.message.empty());
-  EXPECT_EQ(streamed.message, expected.message);
+  EXPECT_EQ(bytes(streamed.message), bytes(expected.message));
   EXPECT_EQ(other.get(plan.message.name()).message.SerializeAsString(), plan.message.SerializeAsString());
   EXPECT_TRUE(other.remove(plan.message.name()).ok());
   EXPECT_EQ(one.get(plan.message.name()).status.error_code(), grpc::StatusCode::NOT_FOUND);
@@ -102,15 +102,11 @@ TEST_F(Replicas, TellOfThePlanThatTheOtherMakes) {
   TestKcsd one(settings_), other(settings_);
   const auto accepted = one.create(accept_only(request_of(1, kManyMoves)));
   ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
-  Call call;
-  v1::WatchPlanRequest request;
-  request.set_name(accepted.message.name());
-  const auto reader = other.stub().WatchPlan(&call, request);
-  v1::PlanProgress progress;
-  while (reader->Read(&progress)) continue;
-  EXPECT_TRUE(reader->Finish().ok());
-  EXPECT_EQ(progress.state(), v1::PLAN_STATE_READY);
-  EXPECT_EQ(progress.segments_planned(), static_cast<std::uint64_t>(kManyMoves));
+  const auto progress = other.watch(accepted.message.name());
+  EXPECT_TRUE(progress.status.ok()) << progress.status.error_message();
+  ASSERT_FALSE(progress.message.empty());
+  EXPECT_EQ(progress.message.back().state(), v1::PLAN_STATE_READY);
+  EXPECT_EQ(progress.message.back().segments_planned(), static_cast<std::uint64_t>(kManyMoves));
 }
 
 }  // namespace

@@ -74,9 +74,7 @@ class Stopping {
     EXPECT_TRUE(is_unavailable_for_a_while(kcsd_.create(request_of(9)).status));
     EXPECT_TRUE(is_unavailable_for_a_while(kcsd_.create(accept_only(request_of(9))).status));
     EXPECT_TRUE(is_unavailable_for_a_while(kcsd_.stream(setpoints("plans/none", 1)).status));
-    Call call;
-    v1::ListPlansResponse plans;
-    EXPECT_TRUE(is_unavailable_for_a_while(kcsd_.new_stub()->ListPlans(&call, {}, &plans)));
+    EXPECT_TRUE(is_unavailable_for_a_while(TestClient(new_channel(kcsd_.address())).list().status));
     EXPECT_EQ(kcsd_.page("/readyz").status, 503);
   }
 
@@ -116,7 +114,7 @@ TEST_F(Sigterm, LetsAPacedStreamFinishWithinTheGraceWhileNewCallsAreRefused) {
   EXPECT_FALSE(reading.ended());
   const grpc::Status status = reading.read_to_the_end();
   EXPECT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(reading.batches(), expected.message);
+  EXPECT_EQ(reading.batches(), bytes(expected.message));
   stopping.expect_end(seconds(10));  // long before the grace is over
 }
 
@@ -141,9 +139,10 @@ TEST_F(Sigterm, EndsAStreamThatOutlastsTheGraceSoThatItGoesOnElsewhere) {
   const auto resumed = other.stream(rest);
   EXPECT_TRUE(resumed.status.ok()) << resumed.status.error_message();
   std::vector<std::string> joined = reading.batches();
-  joined.insert(joined.end(), resumed.message.begin(), resumed.message.end());
+  const std::vector<std::string> rest_of_it = bytes(resumed.message);
+  joined.insert(joined.end(), rest_of_it.begin(), rest_of_it.end());
   EXPECT_EQ(joined.size(), expected.message.size());
-  EXPECT_TRUE(joined == expected.message);
+  EXPECT_TRUE(joined == bytes(expected.message));
 }
 
 TEST_F(Sigterm, EndsACallThatWaitsForItsPlanAndAnUploadThatDoesNotEnd) {

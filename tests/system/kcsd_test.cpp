@@ -1,95 +1,46 @@
 // The program kcsd: how it starts, serves, refuses to start, and stops.
 #include <arpa/inet.h>
-#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
-#include <kcs/v1/planning.grpc.pb.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "tests/system/child_process.h"
+#include "tests/rpc/requests.h"
+#include "tests/rpc/test_client.h"
+#include "tests/system/config_file.h"
+#include "tests/system/kcsd_process.h"
 
 namespace kcs::test {
 namespace {
 
-constexpr std::string_view kGreeting = "kcsd listens on ";
-
-// kcsd on a free port of the loopback, and a client of it.
-class Kcsd {
- public:
-  explicit Kcsd(const std::vector<std::string>& flags = {}) : process_(command(flags)) {
-    const std::string greeting = process_.read_line();
-    if (!greeting.starts_with(kGreeting))
-      throw std::runtime_error("kcsd said \"" + greeting + "\"" + process_.errors());
-    address_ = greeting.substr(kGreeting.size());
-    stub_ = v1::PlanningService::NewStub(grpc::CreateChannel(address_, grpc::InsecureChannelCredentials()));
-  }
-
-  ChildProcess& process() { return process_; }
-  const std::string& address() const { return address_; }
-  v1::PlanningService::Stub& stub() { return *stub_; }
-
-  // A plan of 200 mm at `feed`.
-  grpc::Status create(double feed, v1::Plan& plan) {
-    grpc::ClientContext call;
-    const auto writer = stub_->CreatePlan(&call, &plan);
-    v1::CreatePlanRequest message;
-    v1::Machine& machine = *message.mutable_options()->mutable_machine();
-    machine.set_axes(2);
-    machine.mutable_velocity_mm_s()->Resize(2, 100);
-    machine.mutable_acceleration_mm_s2()->Resize(2, 2500);
-    machine.mutable_jerk_mm_s3()->Resize(2, 2e5);
-    writer->Write(message);
-    for (const double number : {0, 0, 100, 0, 100, 100}) message.mutable_path()->add_points_mm(number);
-    message.mutable_path()->add_feed_mm_s(feed);
-    writer->Write(message);
-    writer->WritesDone();
-    return writer->Finish();
-  }
-
-  static std::vector<std::string> command(const std::vector<std::string>& flags) {
-    std::vector<std::string> command = {KCSD, "--database", "memory", "--listen", "127.0.0.1:0"};
-    command.insert(command.end(), flags.begin(), flags.end());
-    return command;
-  }
-
- private:
-  ChildProcess process_;
-  std::string address_;
-  std::unique_ptr<v1::PlanningService::Stub> stub_;
-};
-
-// Runs kcsd until it ends by itself: its exit code, and in `errors` what it said.
-int run(const std::vector<std::string>& arguments, std::string& errors) {
-  std::vector<std::string> command = {KCSD};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  ChildProcess process(command);
-  const int code = process.wait();
-  errors = process.errors();
-  return code;
+std::vector<std::string> on_loopback(const std::vector<std::string>& flags) {
+  std::vector<std::string> command = {KCSD, "--database", "memory", "--listen", "127.0.0.1:0"};
+  command.insert(command.end(), flags.begin(), flags.end());
+  return command;
 }
 
-class ConfigFile {
+// kcsd on a free port of the loopback, and a client of it.
+class Kcsd : public KcsdProcess, public TestClient {
  public:
-  explicit ConfigFile(const std::string& text)
-      : path_(::testing::TempDir() + "kcsd-" + std::to_string(getpid()) + ".toml") {
-    std::ofstream(path_) << text;
-  }
-  ~ConfigFile() { unlink(path_.c_str()); }
-  ConfigFile(const ConfigFile&) = delete;
-  ConfigFile& operator=(const ConfigFile&) = delete;
-  const std::string& path() const { return path_; }
+  explicit Kcsd(const std::vector<std::string>& flags = {})
+      : KcsdProcess(on_loopback(flags)), TestClient(new_channel(address())) {}
 
- private:
-  std::string path_;
+  // A plan of 200 mm at `feed`.
+  Answer<v1::Plan> create(double feed) {
+    return TestClient::create({request(options()), request(path({0, 0, 100, 0, 100, 100}, feed))});
+  }
 };
+
+// Runs kcsd until it ends by itself.
+Result run_kcsd(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), KCSD);
+  return run(arguments);
+}
 
 int connect_to(const std::string& address) {
   sockaddr_in target{};
@@ -103,27 +54,25 @@ int connect_to(const std::string& address) {
 
 TEST(Kcsd, ServesAndLogsEachPlanOnOneLine) {
   Kcsd kcsd;
-  v1::Plan plan;
-  ASSERT_TRUE(kcsd.create(50, plan).ok());
-  EXPECT_GT(plan.summary().cycle_time_s(), 4);
-  EXPECT_FALSE(kcsd.create(-1, plan).ok());
+  const auto plan = kcsd.create(50);
+  ASSERT_TRUE(plan.status.ok());
+  EXPECT_GT(plan.message.summary().cycle_time_s(), 4);
+  EXPECT_FALSE(kcsd.create(-1).status.ok());
   kcsd.process().send_signal(SIGTERM);
   EXPECT_EQ(kcsd.process().wait(), 0);
   EXPECT_EQ(kcsd.process().read_line(), "") << "more than one line on the standard output";
   const std::string log = kcsd.process().errors();
-  EXPECT_NE(log.find("plan=" + plan.name() + " segments=2"), std::string::npos) << log;
+  EXPECT_NE(log.find("plan=" + plan.message.name() + " segments=2"), std::string::npos) << log;
   EXPECT_NE(log.find("CreatePlan refused: path.feed_mm_s"), std::string::npos) << log;
 }
 
 TEST(Kcsd, ShutsDownAfterTheStreamsThatRun) {
   for (const int number : {SIGTERM, SIGINT}) {
     Kcsd kcsd;
-    v1::Plan plan;
-    ASSERT_TRUE(kcsd.create(100, plan).ok());
-    grpc::ClientContext call;
-    v1::StreamSetpointsRequest request;
-    request.set_name(plan.name());
-    request.set_period_s(1e-5);
+    const auto plan = kcsd.create(100);
+    ASSERT_TRUE(plan.status.ok());
+    Call call;
+    v1::StreamSetpointsRequest request = setpoints(plan.message.name(), 1e-5);
     request.set_batch_size(64);
     const auto reader = kcsd.stub().StreamSetpoints(&call, request);
     v1::SetpointBatch batch;
@@ -140,12 +89,10 @@ TEST(Kcsd, ShutsDownAfterTheStreamsThatRun) {
 TEST(Kcsd, CancelsWhatOutlastsTheGrace) {
   const ConfigFile config("[server]\ngrace_s = 0.1\n");
   Kcsd kcsd({"--config", config.path()});
-  v1::Plan plan;
-  ASSERT_TRUE(kcsd.create(0.01, plan).ok());
-  grpc::ClientContext call;
-  v1::StreamSetpointsRequest request;
-  request.set_name(plan.name());
-  request.set_period_s(1e-5);
+  const auto plan = kcsd.create(0.01);
+  ASSERT_TRUE(plan.status.ok());
+  Call call;
+  v1::StreamSetpointsRequest request = setpoints(plan.message.name(), 1e-5);
   const auto reader = kcsd.stub().StreamSetpoints(&call, request);
   v1::SetpointBatch batch;
   ASSERT_TRUE(reader->Read(&batch));
@@ -160,9 +107,9 @@ TEST(Kcsd, CancelsWhatOutlastsTheGrace) {
 
 TEST(Kcsd, PortInUseIsSaidPlainly) {
   const Kcsd first;
-  std::string errors;
-  EXPECT_EQ(run({"--listen", first.address()}, errors), 1);
-  EXPECT_NE(errors.find("cannot listen on " + first.address()), std::string::npos) << errors;
+  const Result refused = run_kcsd({"--listen", first.address()});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("cannot listen on " + first.address()), std::string::npos) << refused.errors;
 }
 
 TEST(Kcsd, ConfigurationIsRefusedWithFileAndLine) {
@@ -177,31 +124,31 @@ TEST(Kcsd, ConfigurationIsRefusedWithFileAndLine) {
         Bad{"[server]\nlog_level = \"loud\"\n", 2, "warning"}, Bad{"[server]\ngrace_s = -1\n", 2, "seconds"},
         Bad{"server = 1\n", 1, "table"}, Bad{"[server]\nlisten = 127.0.0.1\n", 2, ""}}) {
     const ConfigFile config(bad.text);
-    std::string errors;
-    EXPECT_EQ(run({"--config", config.path()}, errors), 1) << bad.text;
-    EXPECT_NE(errors.find(config.path() + ":" + std::to_string(bad.line) + ": "), std::string::npos) << errors;
-    EXPECT_NE(errors.find(bad.hint), std::string::npos) << errors;
+    const Result refused = run_kcsd({"--config", config.path()});
+    EXPECT_EQ(refused.exit_code, 1) << bad.text;
+    EXPECT_NE(refused.errors.find(config.path() + ":" + std::to_string(bad.line) + ": "), std::string::npos)
+        << refused.errors;
+    EXPECT_NE(refused.errors.find(bad.hint), std::string::npos) << refused.errors;
   }
-  std::string errors;
-  EXPECT_EQ(run({"--config", "/nowhere/kcsd.toml"}, errors), 1);
-  EXPECT_NE(errors.find("/nowhere/kcsd.toml"), std::string::npos) << errors;
+  const Result refused = run_kcsd({"--config", "/nowhere/kcsd.toml"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("/nowhere/kcsd.toml"), std::string::npos) << refused.errors;
 }
 
 TEST(Kcsd, ExampleConfigurationSaysTheDefaults) {
   // A file with all settings that starts is one without unknown keys; flags win over it.
   Kcsd kcsd({"--config", std::string(KCS_SOURCE) + "/deploy/kcsd.toml", "--log-level", "off", "--threads", "1"});
-  v1::Plan plan;
-  EXPECT_TRUE(kcsd.create(50, plan).ok());
+  EXPECT_TRUE(kcsd.create(50).status.ok());
   EXPECT_EQ(kcsd.process().errors(), "");
 }
 
 TEST(Kcsd, UnknownFlagsAndBadValuesAreRefused) {
-  std::string errors;
-  EXPECT_NE(run({"--lisen", "127.0.0.1:0"}, errors), 0);
-  EXPECT_NE(run({"--threads", "-1"}, errors), 0);
-  EXPECT_EQ(run({"--listen", "nowhere"}, errors), 1);
-  EXPECT_NE(errors.find("HOST:PORT"), std::string::npos) << errors;
-  EXPECT_EQ(run({"--log-level", "loud"}, errors), 1);
+  EXPECT_NE(run_kcsd({"--lisen", "127.0.0.1:0"}).exit_code, 0);
+  EXPECT_NE(run_kcsd({"--threads", "-1"}).exit_code, 0);
+  const Result nowhere = run_kcsd({"--listen", "nowhere"});
+  EXPECT_EQ(nowhere.exit_code, 1);
+  EXPECT_NE(nowhere.errors.find("HOST:PORT"), std::string::npos) << nowhere.errors;
+  EXPECT_EQ(run_kcsd({"--log-level", "loud"}).exit_code, 1);
 }
 
 TEST(Kcsd, TellsItsVersion) {
@@ -224,8 +171,7 @@ TEST(Kcsd, IsNotDisturbedByConnectionsThatSpeakNoGrpc) {
     }
     send(connections.back(), bytes.data(), bytes.size(), MSG_NOSIGNAL);  // a third stays silent
   }
-  v1::Plan plan;
-  EXPECT_TRUE(kcsd.create(50, plan).ok());
+  EXPECT_TRUE(kcsd.create(50).status.ok());
   kcsd.process().send_signal(SIGTERM);
   const auto began = std::chrono::steady_clock::now();
   EXPECT_EQ(kcsd.process().wait(), 0);

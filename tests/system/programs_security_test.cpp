@@ -8,24 +8,10 @@
 #include "tests/certificates/authority.h"
 #include "tests/files/temporary_folder.h"
 #include "tests/system/child_process.h"
+#include "tests/system/kcsd_process.h"
 
 namespace kcs::test {
 namespace {
-
-struct Result {
-  int exit_code = -1;
-  std::string output;  // up to the first empty line
-  std::string errors;
-};
-
-Result run(const std::vector<std::string>& command) {
-  ChildProcess process(command);
-  Result result;
-  for (std::string line = process.read_line(); !line.empty(); line = process.read_line()) result.output += line + "\n";
-  result.exit_code = process.wait();
-  result.errors = process.errors();
-  return result;
-}
 
 // A shell runs `script`; $0 is kcsd.
 Result run_shell(const std::string& script) { return run({"/bin/sh", "-c", script, KCSD}); }
@@ -69,13 +55,11 @@ class Kcsd {
  public:
   Kcsd(const TemporaryFolder& folder, const std::string& config, const std::string& host = "127.0.0.1",
        const std::vector<std::string>& flags = {})
-      : process_(command(folder, config, host, flags)), greeting_(process_.read_line()) {
-    if (!greeting_.starts_with("kcsd listens on ")) throw std::runtime_error("kcsd says: " + process_.errors());
-  }
+      : kcsd_(command(folder, config, host, flags)) {}
 
-  std::string port() const { return greeting_.substr(greeting_.rfind(':') + 1); }
+  std::string port() const { return kcsd_.address().substr(kcsd_.address().rfind(':') + 1); }
   std::string address() const { return "127.0.0.1:" + port(); }
-  std::string log() const { return process_.errors(); }
+  std::string log() const { return kcsd_.process().errors(); }
 
  private:
   static std::vector<std::string> command(const TemporaryFolder& folder, const std::string& config,
@@ -87,8 +71,7 @@ class Kcsd {
     return command;
   }
 
-  ChildProcess process_;
-  std::string greeting_;
+  KcsdProcess kcsd_;
 };
 
 TEST_F(Security, KcsdRefusesToListenToTheNetworkWithoutTls) {

@@ -1,71 +1,36 @@
 // What clients that do not read cost a real kcsd.
-#include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
-#include <kcs/v1/planning.grpc.pb.h>
 
 #include <chrono>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "tests/system/child_process.h"
+#include "tests/rpc/requests.h"
+#include "tests/rpc/test_client.h"
+#include "tests/system/kcsd_process.h"
 
 namespace kcs::test {
 namespace {
 
 constexpr int kReaders = 100;
-constexpr std::chrono::seconds kDeadline{60};
 
 class SlowReaders : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::string greeting = kcsd_.read_line();
-    address_ = greeting.substr(greeting.rfind(' ') + 1);
-    stub_ = connect();
-    grpc::ClientContext call;
-    v1::Plan plan;
-    const auto writer = stub_->CreatePlan(&call, &plan);
-    v1::CreatePlanRequest request;
-    request.mutable_options()->mutable_machine()->set_axes(3);
-    for (int axis = 0; axis < 3; ++axis) {
-      request.mutable_options()->mutable_machine()->add_velocity_mm_s(100);
-      request.mutable_options()->mutable_machine()->add_acceleration_mm_s2(1000);
-      request.mutable_options()->mutable_machine()->add_jerk_mm_s3(1e5);
-    }
-    writer->Write(request);
-    for (const double number : {0, 0, 0, 1000, 0, 0, 0, 0, 0}) request.mutable_path()->add_points_mm(number);
-    request.mutable_path()->add_feed_mm_s(100);
-    writer->Write(request);
-    writer->WritesDone();
-    ASSERT_TRUE(writer->Finish().ok());
-    request_.set_name(plan.name());
-    request_.set_period_s(1e-5);  // 2 million setpoints
+    const auto plan = client_.create({request(options(3)), request(path({0, 0, 0, 1000, 0, 0, 0, 0, 0}))});
+    ASSERT_TRUE(plan.status.ok()) << plan.status.error_message();
+    request_ = setpoints(plan.message.name(), 1e-5);  // 2 million setpoints
     for (const v1::Channel channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK,
                                       v1::CHANNEL_PATH_POSITION, v1::CHANNEL_SEGMENT}) {
       request_.add_channels(channel);
     }
   }
 
-  // On a connection of its own.
-  std::unique_ptr<v1::PlanningService::Stub> connect() const {
-    grpc::ChannelArguments own;
-    own.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    return v1::PlanningService::NewStub(grpc::CreateCustomChannel(address_, grpc::InsecureChannelCredentials(), own));
-  }
-
   // Of the server, bytes.
-  std::size_t memory() const {
-    std::ifstream file("/proc/" + std::to_string(kcsd_.pid()) + "/status");
-    for (std::string word; file >> word;) {
-      std::size_t kilobytes = 0;
-      if (word == "VmRSS:" && file >> kilobytes) return kilobytes * 1024;
-    }
-    ADD_FAILURE() << "kcsd is gone: " << kcsd_.errors();
-    return 0;
-  }
+  std::size_t memory() const { return kcsd_.status_figure("VmRSS:") * 1024; }
 
   // Waits until the memory grows no more within a second.
   std::size_t memory_at_rest() const {
@@ -81,9 +46,8 @@ class SlowReaders : public ::testing::Test {
     return before;
   }
 
-  ChildProcess kcsd_{{KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-level", "off"}};
-  std::string address_;
-  std::unique_ptr<v1::PlanningService::Stub> stub_;
+  const KcsdProcess kcsd_{{KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-level", "off"}};
+  TestClient client_{new_channel(kcsd_.address())};
   v1::StreamSetpointsRequest request_;
 };
 
@@ -94,7 +58,7 @@ TEST_F(SlowReaders, CostOneBatchEachAndHoldUpNobody) {
   std::vector<std::unique_ptr<grpc::ClientContext>> calls;
   std::vector<std::unique_ptr<grpc::ClientReader<v1::SetpointBatch>>> readers;
   for (int i = 0; i < kReaders; ++i) {
-    if (i % 10 == 0) stubs.push_back(connect());
+    if (i % 10 == 0) stubs.push_back(v1::PlanningService::NewStub(new_channel(kcsd_.address())));
     calls.push_back(std::make_unique<grpc::ClientContext>());
     readers.push_back(stubs.back()->StreamSetpoints(calls.back().get(), request_));
   }
@@ -103,7 +67,7 @@ TEST_F(SlowReaders, CostOneBatchEachAndHoldUpNobody) {
   // While others are served, however much, it stays so.
   for (int round = 0; round < 3; ++round) {
     grpc::ClientContext call;
-    const auto reader = stub_->StreamSetpoints(&call, request_);
+    const auto reader = client_.stub().StreamSetpoints(&call, request_);
     v1::SetpointBatch batch;
     while (reader->Read(&batch)) continue;
     EXPECT_TRUE(reader->Finish().ok());

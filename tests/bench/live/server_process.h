@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/system/child_process.h"
+#include "tests/system/kcsd_process.h"
 
 namespace kcs::bench {
 
@@ -17,31 +17,27 @@ class ServerProcess {
   // flags: where it listens, or what says so. Throws std::runtime_error if it does not start.
   explicit ServerProcess(const std::vector<std::string>& flags = {"--listen", "127.0.0.1:0", "--database", "memory"});
 
-  const std::string& address() const { return address_; }
+  const std::string& address() const { return kcsd_.address(); }
 
   // Memory of the process that is really there, bytes: now, and the most so far.
-  std::size_t memory() const { return status("VmRSS:") * 1024; }
-  std::size_t most_memory() const { return status("VmHWM:") * 1024; }
+  std::size_t memory() const { return kcsd_.status_figure("VmRSS:") * 1024; }
+  std::size_t most_memory() const { return kcsd_.status_figure("VmHWM:") * 1024; }
 
-  int threads() const { return static_cast<int>(status("Threads:")); }
+  int threads() const { return static_cast<int>(kcsd_.status_figure("Threads:")); }
 
-  pid_t pid() const { return process_.pid(); }
+  pid_t pid() const { return kcsd_.process().pid(); }
 
   // Asks it to stop (SIGTERM), and waits for up to a minute. Its exit code.
   int stop();
 
   // What it wrote to its log so far: warnings and errors.
-  std::string log() const { return process_.errors(); }
+  std::string log() const { return kcsd_.process().errors(); }
 
   // Time that its threads have taken of the processors so far, s.
   double cpu_seconds() const;
 
  private:
-  // A number of /proc/PID/status, in kB where it has a unit.
-  std::size_t status(const std::string& key) const;
-
-  test::ChildProcess process_;
-  std::string address_;
+  test::KcsdProcess kcsd_;
 };
 
 }  // namespace kcs::bench

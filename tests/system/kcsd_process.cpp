@@ -1,0 +1,48 @@
+#include "tests/system/kcsd_process.h"
+
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "tests/rpc/eventually.h"
+
+namespace kcs::test {
+namespace {
+
+constexpr std::string_view kGreeting = "kcsd listens on ";
+constexpr std::string_view kFigures = "figures on http://";
+
+std::string address_of(ChildProcess& kcsd) {
+  const std::string greeting = kcsd.read_line();
+  if (!greeting.starts_with(kGreeting)) throw std::runtime_error("kcsd said \"" + greeting + "\": " + kcsd.errors());
+  return greeting.substr(kGreeting.size());
+}
+
+}  // namespace
+
+KcsdProcess::KcsdProcess(const std::vector<std::string>& command) : process_(command), address_(address_of(process_)) {}
+
+std::size_t KcsdProcess::status_figure(const std::string& word) const {
+  std::ifstream file("/proc/" + std::to_string(process_.pid()) + "/status");
+  for (std::string found; file >> found;) {
+    std::size_t number = 0;
+    if (found == word && file >> number) return number;
+  }
+  throw std::runtime_error("kcsd is gone: " + process_.errors());
+}
+
+std::string http_address_of(const ChildProcess& kcsd) {
+  std::string address;
+  const bool found = eventually([&] {
+    const std::string log = kcsd.errors();
+    const std::size_t begin = log.find(kFigures);
+    const std::size_t end = begin == std::string::npos ? begin : log.find("/metrics", begin);
+    if (end == std::string::npos) return false;
+    address = log.substr(begin + kFigures.size(), end - begin - kFigures.size());
+    return true;
+  });
+  if (!found) throw std::runtime_error("no address of the figures: " + kcsd.errors());
+  return address;
+}
+
+}  // namespace kcs::test
