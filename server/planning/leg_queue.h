@@ -38,9 +38,10 @@ class LegQueue {
   void segments_of(std::size_t leg, double reach, const Take& take) const;
   void drop(std::size_t count);
 
-  const Vector& start() const { return start_; }           // of the path, mm
-  const Vector& end() const { return end_; }               // of what has come, mm
-  double initial_dwell() const { return initial_dwell_; }  // s, before anything moves
+  const Vector& start() const { return start_; }                 // of the path, mm
+  const Vector& end() const { return end_; }                     // of what has come, mm
+  double initial_dwell() const { return initial_dwell_; }        // s, before anything moves
+  std::size_t waiting_segments() const { return ends_.size(); }  // of the legs that are kept
   std::uint32_t segments() const { return first_segment_ + static_cast<std::uint32_t>(ends_.size()); }  // that move
 
  private:

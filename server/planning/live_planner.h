@@ -31,6 +31,9 @@ class LivePlanner {
   // The next segment. Throws InvalidInput if its numbers cannot be planned, or if the tool starts too fast.
   void add(const Segment& segment);
 
+  // How many segments have come whose motion is not settled yet.
+  std::size_t waiting_segments() const { return legs_.waiting_segments(); }
+
   // After the last segment: settles the rest. Throws InvalidInput if the path is too short for the speeds at its ends.
   Summary finish();
 

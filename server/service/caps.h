@@ -34,6 +34,10 @@ struct Caps {
   // Calls of PlanLive under way at the same time; each holds a thread, which plans, and a part of the path: some MB.
   std::uint64_t live_streams = 64;
   std::uint64_t client_live_streams = 32;  // of one client among them
+  // Segments of a live path whose motion is not settled yet: the look-ahead. The planner decides by the path itself how
+  // far it looks, 40,000 changes of direction at the most; a straight line may have any number of segments, 100 bytes
+  // each.
+  std::uint64_t look_ahead = 200'000;
 };
 
 }  // namespace kcs::service

@@ -32,7 +32,8 @@ Keys cap_keys(Caps& caps) {
           {"streams", whole(caps.streams, 1, kMostCalls)},
           {"client_streams", whole(caps.client_streams, 1, kMostCalls)},
           {"live_streams", whole(caps.live_streams, 1, kMostCalls)},
-          {"client_live_streams", whole(caps.client_live_streams, 1, kMostCalls)}};
+          {"client_live_streams", whole(caps.client_live_streams, 1, kMostCalls)},
+          {"look_ahead", whole(caps.look_ahead, 1, kMany)}};
 }
 
 Keys server_keys(Config& config) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "server/jobs/cap_exceeded.h"
 #include "server/service/decode.h"
 #include "server/service/encode.h"
 
@@ -34,6 +35,12 @@ void LiveCall::plan(const planning::Segment& segment) {
     planner_.emplace(options.ends(incoming_->start()), planning, *this);
   }
   planner_->add(segment);
+  if (planner_->waiting_segments() > caps_.look_ahead) {
+    throw jobs::CapExceeded(
+        "look_ahead", caps_.look_ahead,
+        "the path goes on for longer before any of its motion can be settled: send points that lie on "
+        "one straight line as one segment");
+  }
   ++segments_;
   flush();
 }

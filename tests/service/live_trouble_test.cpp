@@ -33,8 +33,11 @@ class LiveTrouble : public ::testing::Test {
                                                                                      : ::testing::AssertionFailure();
   }
 
-  TestServer server_{
-      {.caps = {.points_per_plan = 50, .gcode_bytes = 1000, .message_bytes = 100'000, .live_streams = 1}}};
+  TestServer server_{{.caps = {.points_per_plan = 50,
+                               .gcode_bytes = 1000,
+                               .message_bytes = 100'000,
+                               .live_streams = 1,
+                               .look_ahead = 1000}}};
 };
 
 TEST_F(LiveTrouble, BadPointsAreNamedByTheirPlaceInTheWholePath) {
@@ -46,6 +49,25 @@ TEST_F(LiveTrouble, BadPointsAreNamedByTheirPlaceInTheWholePath) {
   EXPECT_TRUE(refuses_field(answer.status, "path.feed_mm_s, segment 903"));
   EXPECT_TRUE(answer.plans.empty());
   EXPECT_FALSE(answer.setpoints.empty()) << "what was settled before has come";
+  EXPECT_TRUE(eventually([this] { return bool(serves()); }));
+}
+
+// However long a line is, nothing of it can be settled before its end is known.
+TEST_F(LiveTrouble, LineWithoutEndIsRefusedBeforeItFillsTheMemory) {
+  std::vector<v1::CreatePlanRequest> line = {request(options())};
+  for (int chunk = 0; chunk < 3; ++chunk) {
+    v1::PathChunk points;
+    points.add_feed_mm_s(100);
+    for (int i = 0; i < 500; ++i) {
+      points.add_points_mm(0.01 * (500 * chunk + i));
+      points.add_points_mm(0);
+    }
+    line.push_back(request(points));
+  }
+  const LiveAnswer answer = exchange(line);
+  EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_NE(answer.status.error_message().find("look_ahead = 1000"), std::string::npos)
+      << answer.status.error_message();
   EXPECT_TRUE(eventually([this] { return bool(serves()); }));
 }
 

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <optional>
 
-#include "server/jobs/plan_desk.h"
 #include "server/jobs/plan_cache.h"
+#include "server/jobs/plan_desk.h"
 #include "tests/unit/jobs/requests.h"
 
 namespace kcs::jobs {
