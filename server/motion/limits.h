@@ -13,6 +13,8 @@ struct AxisLimits {
   Vector velocity = Vector::Zero();      // mm/s
   Vector acceleration = Vector::Zero();  // mm/s²
   Vector jerk = Vector::Zero();          // mm/s³
+
+  bool operator==(const AxisLimits&) const = default;
 };
 
 }  // namespace kcs::motion

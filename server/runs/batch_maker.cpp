@@ -1,0 +1,105 @@
+#include "server/runs/batch_maker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "server/runs/paced_motion.h"
+#include "server/runs/pacing.h"
+
+namespace kcs::runs {
+
+// How a change of pace is looked for: how often it is decided on, s, about, and with which share of the limits. It is
+// found to first order of the step; where that was too rough for the verification, the next is tried.
+struct BatchMaker::Care {
+  double step, share;
+
+  static constexpr std::array<Care, 4> all() { return {{{0.004, 0.98}, {0.002, 0.96}, {0.001, 0.93}, {0.0005, 0.9}}}; }
+};
+
+BatchMaker::BatchMaker(const motion::Trajectory& trajectory, const motion::AxisLimits& limits,
+                       const BatchOptions& options)
+    : limits_(limits), options_(options), plan_(trajectory) {}
+
+std::optional<Batch> BatchMaker::next(const ClockState& from, double rate) {
+  plan_.drop_before(from.plan_time);
+  for (const Care& care : Care::all()) {
+    if (auto found = next(from, rate, care)) return found;
+  }
+  if (rate > 1) return next(from, 1);
+  for (const Care& care : Care::all()) {
+    if (auto course = stop(from, care)) {
+      const ClockCourse tail = course->cut(duration());
+      return batch(*course, tail);
+    }
+  }
+  return {};
+}
+
+std::optional<Batch> BatchMaker::next(const ClockState& from, double rate, const Care& care) {
+  const auto course = lead(from, rate, care);
+  if (!course) return {};
+  const auto tail = stop(course->end(), care);
+  return tail ? std::optional(batch(*course, *tail)) : std::nullopt;
+}
+
+std::optional<ClockCourse> BatchMaker::lead(const ClockState& from, double rate, const Care& care) {
+  Pacing pacing(plan_, limits_, step(care), care.share);
+  ClockCourse course(from);
+  for (double left = duration(); left > duration() * 1e-9; left = duration() - course.duration()) {
+    const auto stretch = pacing.next(course.end(), rate, left);
+    if (!stretch) return {};
+    course.add(*stretch, Pacing::after(*stretch, rate));
+  }
+  return verified(course) ? std::optional(course) : std::nullopt;
+}
+
+std::optional<ClockCourse> BatchMaker::stop(const ClockState& from, const Care& care) {
+  const double longest = static_cast<double>(options_.tail_capacity) * options_.period;
+  Pacing pacing(plan_, limits_, step(care), care.share);
+  ClockCourse course(from);
+  while (!course.end().rests() && !has_ended(course.end())) {
+    const auto stretch = pacing.next(course.end(), 0, longest);
+    if (!stretch || course.duration() + stretch->duration > longest) return {};
+    course.add(*stretch, Pacing::after(*stretch, 0));
+  }
+  return verified(course) ? std::optional(course) : std::nullopt;
+}
+
+// The same on the way and on the way to rest: what one finds safe, the other finds as well.
+double BatchMaker::step(const Care& care) const { return duration() / std::ceil(duration() / care.step); }
+
+bool BatchMaker::verified(const ClockCourse& course) {
+  return std::all_of(course.stretches().begin(), course.stretches().end(),
+                     [&](const ClockPhase& stretch) { return verify(plan_, stretch, limits_).empty(); });
+}
+
+Batch BatchMaker::batch(const ClockCourse& course, const ClockCourse& tail) {
+  Batch made{.positions = sample(course, options_.setpoints), .end = course.end()};
+  made.end_of_plan = has_ended(made.end);
+  if (made.end_of_plan) {
+    made.end = {plan_.duration(), 0, 0};
+    while (made.positions.size() > 1 && made.positions.end()[-2] == made.positions.back()) made.positions.pop_back();
+  } else {
+    made.tail = sample(tail, static_cast<std::size_t>(std::ceil(tail.duration() / options_.period * (1 - 1e-12))));
+  }
+  made.tail_end = made.end_of_plan ? plan_.duration() : std::min(tail.end().plan_time, plan_.duration());
+  return made;
+}
+
+// A setpoint each period after the start; beyond the course's end it rests.
+std::vector<motion::Vector> BatchMaker::sample(const ClockCourse& course, std::size_t count) {
+  std::vector<motion::Vector> positions;
+  positions.reserve(count);
+  auto stretch = course.stretches().begin();
+  double start = 0;
+  for (std::size_t i = 1; i <= count; ++i) {
+    const double time = static_cast<double>(i) * options_.period;
+    while (stretch != course.stretches().end() && time > start + stretch->duration) start += (stretch++)->duration;
+    const bool beyond = stretch == course.stretches().end();
+    positions.push_back(position(plan_, beyond ? course.end().plan_time : stretch->at(time - start).plan_time));
+  }
+  return positions;
+}
+
+}  // namespace kcs::runs
