@@ -101,6 +101,22 @@ store::Removal Archive::remove(const store::Whose& whose, const std::string& nam
   return timed("remove", [&](store::Store& database) { return database.remove(whose, name); });
 }
 
+store::RunRecord Archive::add_run(const store::RunRecord& run) {
+  return timed("add_run", [&](store::Store& database) { return database.add_run(run); });
+}
+
+void Archive::update_run(const store::RunRecord& run) {
+  timed("update_run", [&](store::Store& database) { database.update_run(run); });
+}
+
+std::optional<store::RunRecord> Archive::find_run(const std::string& name) {
+  return timed("find_run", [&](store::Store& database) { return database.find_run(name); });
+}
+
+std::optional<store::RunRecord> Archive::open_run(const std::string& machine) {
+  return timed("open_run", [&](store::Store& database) { return database.open_run(machine); });
+}
+
 std::vector<std::string> Archive::claim(std::size_t most) {
   return timed("claim", [&](store::Store& database) { return database.claim(most); });
 }

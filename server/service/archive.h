@@ -1,4 +1,4 @@
-// Everything that is kept of plans.
+// Everything that is kept of plans and their runs.
 #pragma once
 
 #include <atomic>
@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "server/jobs/plan_keeper.h"
 #include "server/jobs/plan_cache.h"
+#include "server/jobs/plan_keeper.h"
 #include "server/observe/family.h"
 #include "server/observe/histogram.h"
 #include "server/store/store.h"
@@ -47,6 +47,10 @@ class Archive final : public jobs::PlanKeeper {
   store::Page list(const store::Whose& whose, const store::Filter& filter, std::size_t page_size,
                    const std::string& page_token);
   store::Removal remove(const store::Whose& whose, const std::string& name);
+  store::RunRecord add_run(const store::RunRecord& run);
+  void update_run(const store::RunRecord& run);
+  std::optional<store::RunRecord> find_run(const std::string& name);
+  std::optional<store::RunRecord> open_run(const std::string& machine);
   std::vector<std::string> claim(std::size_t most);
   void release();
   // Forgets in memory, too, what it swept.

@@ -26,6 +26,18 @@ class StoreFull : public StoreError {
   using StoreError::StoreError;
 };
 
+// A new run for a machine that has one which is not over.
+class MachineHasRun : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A new run of a plan that is not kept, or not any more.
+class PlanNotKept : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // A page token that this list did not give.
 class InvalidPageToken : public std::runtime_error {
  public:

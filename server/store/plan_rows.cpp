@@ -3,15 +3,6 @@
 #include <fmt/format.h>
 
 namespace kcs::store {
-namespace {
-
-bool exists(soci::session& session, const std::string& name) {
-  int count = 0;
-  session << "select count(*) from plans where name = :name", soci::use(name, "name"), soci::into(count);
-  return count > 0;
-}
-
-}  // namespace
 
 std::string record_tables(const Whose& whose) {
   return fmt::format("{} o join plans p on p.name = o.name",
@@ -63,8 +54,14 @@ std::optional<Record> select_plan(soci::session& session, const Dialect& dialect
   return row.record(dialect);
 }
 
+bool has_plan(soci::session& session, const std::string& name) {
+  int count = 0;
+  session << "select count(*) from plans where name = :name", soci::use(name, "name"), soci::into(count);
+  return count > 0;
+}
+
 void insert_plan(soci::session& session, const Dialect& dialect, const Request& request, const PackedRequest& packed) {
-  if (exists(session, request.name)) return;
+  if (has_plan(session, request.name)) return;
   const std::string now = dialect.now();
   const auto request_bytes = static_cast<long long>(request.bytes.size());
   const auto stored_bytes = static_cast<long long>(packed.bytes());
@@ -104,21 +101,21 @@ void settle_plan(soci::session& session, const Dialect& dialect, const std::stri
 }
 
 Removal delete_owner(soci::session& session, const Whose& whose, const std::string& name) {
-  if (!whose) {
-    if (!exists(session, name)) return Removal::kNotFound;
-    delete_plan(session, name);
-    return Removal::kGone;
+  if (whose) {
+    int his = 0;
+    session << "select count(*) from owners where owner = :owner and name = :name", soci::use(*whose, "owner"),
+        soci::use(name, "name"), soci::into(his);
+    if (his == 0) return Removal::kNotFound;
+    session << "delete from owners where owner = :owner and name = :name", soci::use(*whose, "owner"),
+        soci::use(name, "name");
+  } else {
+    if (!has_plan(session, name)) return Removal::kNotFound;
+    session << "delete from owners where name = :name and owner not in (select name from runs where state = 0)",
+        soci::use(name, "name");
   }
-  const std::string& owner = *whose;
-  int his = 0;
-  int all = 0;
-  session << "select count(*) from owners where owner = :owner and name = :name", soci::use(owner, "owner"),
-      soci::use(name, "name"), soci::into(his);
-  if (his == 0) return Removal::kNotFound;
-  session << "delete from owners where owner = :owner and name = :name", soci::use(owner, "owner"),
-      soci::use(name, "name");
-  session << "select count(*) from owners where name = :name", soci::use(name, "name"), soci::into(all);
-  if (all > 0) return Removal::kOthersKeepIt;
+  int left = 0;
+  session << "select count(*) from owners where name = :name", soci::use(name, "name"), soci::into(left);
+  if (left > 0) return Removal::kOthersKeepIt;
   delete_plan(session, name);
   return Removal::kGone;
 }

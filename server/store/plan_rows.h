@@ -39,6 +39,8 @@ void run(soci::statement& statement, const std::string& sql);
 std::optional<Record> select_plan(soci::session& session, const Dialect& dialect, const std::string& planner,
                                   const Whose& whose, const std::string& name);
 
+bool has_plan(soci::session& session, const std::string& name);
+
 // Unless they are there already.
 void insert_plan(soci::session& session, const Dialect& dialect, const Request& request, const PackedRequest& packed);
 void insert_owner(soci::session& session, const Dialect& dialect, const std::string& owner, const std::string& name);
@@ -50,7 +52,7 @@ void touch_plan(soci::session& session, const Dialect& dialect, const std::strin
 void settle_plan(soci::session& session, const Dialect& dialect, const std::string& name, State state,
                  std::string_view outcome, std::optional<double> cycle_time);
 
-// Of everybody's: all owners.
+// Of everybody's: all owners but runs.
 Removal delete_owner(soci::session& session, const Whose& whose, const std::string& name);
 // With all that belongs to it.
 void delete_plan(soci::session& session, const std::string& name);

@@ -60,7 +60,7 @@ struct Page {
 // What remove() found.
 enum class Removal {
   kNotFound,
-  kOthersKeepIt,  // it is this owner's no longer, but somebody else's
+  kOthersKeepIt,  // it is this owner's no longer, but somebody else's, or a run's that is not over
   kGone,          // nobody has it any more
 };
 

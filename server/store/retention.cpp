@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "server/store/plan_rows.h"
+#include "server/store/run_rows.h"
 
 namespace kcs::store {
 namespace {
@@ -31,7 +32,7 @@ std::vector<Candidate> candidates(Connections& connections, const StoreSettings&
     soci::statement statement =
         (session.prepare << fmt::format(
              "select name, use_time, stored_bytes, case when use_time < {} - {} then 1 else 0 end from plans "
-             "where state <> 0 order by use_time limit {}",
+             "where state <> 0 and name not in (select plan from runs where state = 0) order by use_time limit {}",
              connections.dialect().now(), age, kPlansAtOnce),
          soci::into(row.name), soci::into(row.use_time), soci::into(row.bytes), soci::into(is_old));
     statement.execute();
@@ -43,7 +44,7 @@ std::vector<Candidate> candidates(Connections& connections, const StoreSettings&
   });
 }
 
-// False if it was used meanwhile, or somebody else forgot it.
+// False if it was used meanwhile, as by a new run, or somebody else forgot it.
 bool forget(Connections& connections, const Candidate& candidate) {
   return connections.write(candidate.name, [&candidate](soci::session& session) {
     int unused = 0;
@@ -55,6 +56,14 @@ bool forget(Connections& connections, const Candidate& candidate) {
   });
 }
 
+// Those that are over change no more, so none has to wait.
+void forget_runs(Connections& connections, std::chrono::seconds keep) {
+  connections.write("old runs", [&](soci::session& session) {
+    delete_old_runs(session, connections.dialect(), std::chrono::microseconds(keep).count());
+    return true;
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> sweep(Connections& connections, const StoreSettings& settings) {
@@ -62,6 +71,7 @@ std::vector<std::string> sweep(Connections& connections, const StoreSettings& se
   for (const Candidate& candidate : candidates(connections, settings)) {
     if (forget(connections, candidate)) forgotten.push_back(candidate.name);
   }
+  forget_runs(connections, settings.keep);
   connections.shrink();
   return forgotten;
 }

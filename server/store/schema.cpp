@@ -44,6 +44,23 @@ std::vector<Statements> steps(const Dialect& dialect) {
                         bytes {} not null,
                         primary key (name, position)))",
                    bytes)},
+      {R"(create table machines (
+            machine text primary key,
+            runs bigint not null))",
+       R"(create table runs (
+            name text primary key,
+            machine text not null,
+            plan text not null,
+            controller text not null,
+            state smallint not null,
+            held smallint not null,
+            feed_override double precision not null,
+            plan_time double precision not null,
+            reason text not null,
+            create_time bigint not null,
+            change_time bigint not null))",
+       "create unique index open_runs on runs (machine) where state = 0",
+       "create index ended_runs on runs (change_time) where state <> 0"},
   };
 }
 

@@ -3,6 +3,8 @@
 //   plans         one row a plan: what it is searched by, its outcome, and who plans it
 //   owners        one row for each owner of each plan
 //   request_rows  the requests, compressed, in pieces of bounded size, see request_rows.h
+//   runs          one row a run; of those that are not over, one a machine at most
+//   machines      one row a machine that ever had a run: how many it had
 //   kcs_schema    one row: the version
 //
 // Times are in µs since 1970, by the database's clock where it has one, so that servers agree.

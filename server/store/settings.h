@@ -27,7 +27,7 @@ struct StoreSettings {
   // A request whose server gave no sign of life for so long is planned by another server that shares the store, or by
   // the same one after it was started again.
   std::chrono::milliseconds lease = std::chrono::seconds(30);
-  // What was not used for longer is forgotten. Use is noted to a 24th of this.
+  // What was not used for longer is forgotten, and runs that were over for longer. Use is noted to a 24th of this.
   std::chrono::seconds keep = std::chrono::hours(24 * 30);
   // Compressed requests and their outcomes. Beyond, what was not used for longest is forgotten.
   std::uint64_t keep_bytes = std::uint64_t{10} << 30;

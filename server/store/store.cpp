@@ -8,6 +8,7 @@
 #include "server/store/plan_rows.h"
 #include "server/store/request_rows.h"
 #include "server/store/retention.h"
+#include "server/store/run_rows.h"
 #include "server/store/schema.h"
 
 namespace kcs::store {
@@ -126,6 +127,49 @@ Removal Store::remove(const Whose& whose, const std::string& name) {
 std::vector<std::string> Store::claim(std::size_t most) { return parts_->leases.claim(parts_->connections, most); }
 
 void Store::release() { parts_->leases.release(parts_->connections); }
+
+RunRecord Store::add_run(const RunRecord& run) {
+  std::optional<RunRecord> tried;  // if the connection died, perhaps after the database had done it
+  return parts_->connections.write(run.plan, [&](soci::session& session) {
+    RunRecord added = run;
+    added.name = fmt::format("{}/runs/{}", run.machine, take_run_number(session, run.machine));
+    if (std::optional<RunRecord> open = select_open_run(session, run.machine)) {
+      if (tried && tried->name == open->name && tried->create_time == open->create_time) return *std::move(open);
+      throw MachineHasRun(
+          fmt::format("{} has {}, which is not over: wait for its end, or abort it", run.machine, open->name));
+    }
+    if (!has_plan(session, run.plan)) {
+      throw PlanNotKept(fmt::format("{} is not kept any more: have it planned again", run.plan));
+    }
+    const Dialect& dialect = parts_->connections.dialect();
+    insert_run(session, dialect, added);
+    insert_owner(session, dialect, added.name, run.plan);
+    touch_plan(session, dialect, run.plan);
+    tried = select_run(session, added.name);
+    return *tried;
+  });
+}
+
+void Store::update_run(const RunRecord& run) {
+  parts_->connections.write(run.plan, [&](soci::session& session) {
+    const Dialect& dialect = parts_->connections.dialect();
+    store::update_run(session, dialect, run);
+    if (run.state == RunRecordState::kOpen) return true;
+    touch_plan(session, dialect, run.plan);
+    delete_owner(session, run.name, run.plan);
+    return true;
+  });
+}
+
+std::optional<RunRecord> Store::find_run(const std::string& name) {
+  if (!can_be_kept(name)) return std::nullopt;
+  return parts_->connections.read([&](soci::session& session) { return select_run(session, name); });
+}
+
+std::optional<RunRecord> Store::open_run(const std::string& machine) {
+  if (!can_be_kept(machine)) return std::nullopt;
+  return parts_->connections.read([&](soci::session& session) { return select_open_run(session, machine); });
+}
 
 std::vector<std::string> Store::sweep() { return store::sweep(parts_->connections, parts_->settings); }
 

@@ -1,4 +1,4 @@
-// Requests and what came of them, kept in a database.
+// Requests and what came of them, and the runs of machines, kept in a database.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 
 #include "server/store/errors.h"
 #include "server/store/records.h"
+#include "server/store/run_record.h"
 #include "server/store/settings.h"
 
 namespace kcs::store {
@@ -62,8 +63,25 @@ class Store {
   // stop.
   void release();
 
-  // Forgets what was not used for too long or is too much in all, except what waits to be planned; some hundred plans
-  // at most, the next call goes on. The names of what is gone. Call it every minute or so.
+  // Begins a run: `run` says everything but its name, state and create time, which it is given. The number in the name
+  // is the machine's next: no other run ever had it or will have it. Throws MachineHasRun if the machine has an open
+  // run, also one that another server adds at the same moment, PlanNotKept if the plan is gone. After StoreUnavailable
+  // it may have been added or not: open_run() tells.
+  //
+  // The plan belongs to the run as well for as long as that is open: find(name of the run, plan) has it, and it is
+  // neither forgotten nor gone when everybody else has removed it; then it goes with the end of the run.
+  RunRecord add_run(const RunRecord& run);
+  // Writes down how an open run goes, or that it is over: all but its name, machine, plan and create time. A run that
+  // is over, or not kept, is left alone.
+  void update_run(const RunRecord& run);
+  // None if it is not kept.
+  std::optional<RunRecord> find_run(const std::string& name);
+  // The machine's run that is not over; none if there is none.
+  std::optional<RunRecord> open_run(const std::string& machine);
+
+  // Forgets what was not used for too long or is too much in all, except what waits to be planned or an open run needs;
+  // some hundred plans at most, the next call goes on. Forgets runs that have been over for too long. The names of the
+  // plans that are gone. Call it every minute or so.
   std::vector<std::string> sweep();
 
  private:

@@ -104,5 +104,69 @@ TEST_P(Concurrency, EverythingAtTheSameTimeWorks) {
   EXPECT_EQ(left, kThreads * 8);
 }
 
+TEST_P(Concurrency, OfManyRunsOneBegins) {
+  Store first(settings_);
+  Store second(settings_);
+  accept_finished(first, "ada", 1);
+  accept_finished(first, "ada", 2);
+  for (int round = 1; round <= 10; ++round) {
+    std::vector<std::string> begun(kThreads);
+    together([&](int i) {
+      try {
+        begun[i] = (i % 2 ? first : second).add_run(run_of(1 + i / 2 % 2)).name;
+      } catch (const MachineHasRun&) {
+      }
+    });
+    std::erase(begun, "");
+    EXPECT_EQ(begun, std::vector{"machines/mill/runs/" + std::to_string(round)});
+    std::optional<RunRecord> open = first.open_run("machines/mill");
+    ASSERT_TRUE(open);
+    open->state = RunRecordState::kAborted;
+    second.update_run(*open);
+  }
+}
+
+TEST_P(Concurrency, EachMachineBeginsItsRun) {
+  Store first(settings_);
+  Store second(settings_);
+  accept_finished(first, "ada", 1);
+  together([&](int i) {
+    Store& store = i % 2 ? first : second;
+    const std::string machine = "machines/" + std::to_string(i);
+    for (int round = 1; round <= 10; ++round) {
+      RunRecord run = store.add_run(run_of(1, machine));
+      EXPECT_EQ(run.name, machine + "/runs/" + std::to_string(round));
+      run.state = RunRecordState::kFinished;
+      store.update_run(run);
+    }
+  });
+  EXPECT_EQ(query(settings_, "select count(*) from owners"), "1");
+}
+
+TEST_P(Concurrency, ARunThatBeginsWhileItsPlanGoesHasItOrIsRefused) {
+  settings_.keep_bytes = 1;
+  Store first(settings_);
+  Store second(settings_);
+  for (std::uint64_t round = 1; round <= 10; ++round) {
+    accept_finished(first, "ada", round);
+    together([&](int i) {
+      if (i == 0) first.remove("ada", plan_name(round));
+      if (i == 1) second.sweep();
+      if (i < 2) return;
+      const std::string machine = "machines/" + std::to_string(i);
+      try {
+        RunRecord run = (i % 2 ? first : second).add_run(run_of(round, machine));
+        EXPECT_EQ(second.request(plan_name(round)), "request");
+        EXPECT_TRUE(second.find(run.name, plan_name(round)));
+        run.state = RunRecordState::kFinished;
+        first.update_run(run);
+      } catch (const PlanNotKept&) {
+        EXPECT_FALSE(first.open_run(machine));
+      }
+    });
+    EXPECT_FALSE(first.request(plan_name(round)));
+  }
+}
+
 }  // namespace
 }  // namespace kcs::store

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <barrier>
 #include <memory>
 #include <thread>
@@ -109,6 +110,77 @@ TEST_F(PostgresqlOutage, ThatNoCallSawGoesUnnoticed) {
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(store.find("ada", plan_name(1)));
     use_all_connections(store);
   }
+}
+
+// Begins and ends one run after the other until it is told to stop, as a server does that has to know for each of them
+// whether it is there.
+void run_again_and_again(Store& store, const std::stop_token& stopping) {
+  const auto insist = [](const auto& call) {
+    while (true) {
+      try {
+        return call();
+      } catch (const StoreUnavailable&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+    }
+  };
+  for (int last = 0; !stopping.stop_requested() || last == 0;) {
+    std::optional<RunRecord> run;
+    try {
+      run = store.add_run(run_of(1));
+    } catch (const StoreUnavailable&) {
+      run = insist([&] { return store.open_run("machines/mill"); });
+      if (!run) continue;
+    }
+    const int number = std::stoi(run->name.substr(run->name.rfind('/') + 1));
+    EXPECT_GT(number, last);
+    last = number;
+    run->state = RunRecordState::kFinished;
+    insist([&] {
+      store.update_run(*run);
+      return true;
+    });
+  }
+}
+
+TEST_F(PostgresqlOutage, InTheMiddleOfRunsLeavesEachOneCertain) {
+  Store store(settings_);
+  accept_finished(store, "ada", 1);
+  {
+    const std::jthread machine(
+        [&store](const std::stop_token& stopping) { EXPECT_NO_THROW(run_again_and_again(store, stopping)); });
+    for (int kills = 0; kills < 4; ++kills) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      server_.kill();
+      server_.start();
+    }
+  }
+  EXPECT_FALSE(store.open_run("machines/mill"));
+  EXPECT_EQ(server_.query("plans", "select count(*) from runs where state <> 1"), "0");
+}
+
+TEST_F(PostgresqlOutage, ThatTakesTheAnswerAwayLeavesTheRunItsBeginners) {
+  settings_.timeout = seconds(60);
+  Store store(settings_);
+  accept_finished(store, "ada", 1);
+  // A commit that waits for a replica is done already: if its connection is cut, only the word of it is lost.
+  server_.query("postgres", "alter system set synchronous_standby_names = 'nobody'");
+  server_.query("postgres", "select pg_reload_conf()");
+  std::atomic<bool> cut = false;
+  const std::jthread administrator([&] {
+    const char* const cut_waiting =
+        "select count(pg_terminate_backend(pid)) from pg_stat_activity where wait_event = 'SyncRep'";
+    while (server_.query("postgres", cut_waiting) == "0") std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    cut = true;
+    server_.query("postgres", "alter system reset synchronous_standby_names");
+    server_.query("postgres", "select pg_reload_conf()");
+  });
+  RunRecord run;
+  for (int machine = 0; !cut; ++machine) {  // the first ones may be faster than the new settings
+    run = store.add_run(run_of(1, "machines/" + std::to_string(machine)));
+    EXPECT_EQ(run.name, run.machine + "/runs/1");
+  }
+  EXPECT_EQ(store.open_run(run.machine), run);
 }
 
 TEST_F(PostgresqlOutage, OfAFrozenServerEndsCallsInTime) {

@@ -59,6 +59,10 @@ Record accept_finished(Store& store, const std::string& owner, std::uint64_t num
                                {.plan = "plan", .cycle_time = cycle_time});
 }
 
+RunRecord run_of(std::uint64_t plan, const std::string& machine) {
+  return {.machine = machine, .plan = plan_name(plan), .controller = "ada"};
+}
+
 std::vector<std::string> names(const std::vector<Record>& records) {
   std::vector<std::string> all;
   for (const Record& record : records) all.push_back(record.name);

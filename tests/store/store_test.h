@@ -49,6 +49,9 @@ Record accept(Store& store, const std::string& owner, std::uint64_t number, std:
 Record accept_finished(Store& store, const std::string& owner, std::uint64_t number, double cycle_time = 1,
                        const std::string& machine_name = "mill");
 
+// A new run of a plan, by some controller.
+RunRecord run_of(std::uint64_t plan, const std::string& machine = "machines/mill");
+
 std::vector<std::string> names(const std::vector<Record>& records);
 
 }  // namespace kcs::store
