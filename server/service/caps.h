@@ -38,6 +38,8 @@ struct Caps {
   // far it looks, 40,000 changes of direction at the most; a straight line may have any number of segments, 100 bytes
   // each.
   std::uint64_t look_ahead = 200'000;
+  // Machines that are attached at the same time; each holds two threads, and the plan of its run.
+  std::uint64_t machines = 100;
 };
 
 }  // namespace kcs::service

@@ -33,7 +33,8 @@ Keys cap_keys(Caps& caps) {
           {"client_streams", whole(caps.client_streams, 1, kMostCalls)},
           {"live_streams", whole(caps.live_streams, 1, kMostCalls)},
           {"client_live_streams", whole(caps.client_live_streams, 1, kMostCalls)},
-          {"look_ahead", whole(caps.look_ahead, 1, kMany)}};
+          {"look_ahead", whole(caps.look_ahead, 1, kMany)},
+          {"machines", whole(caps.machines, 1, kMostCalls)}};
 }
 
 Keys server_keys(Config& config) {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "server/planning/range.h"
-#include "server/service/violations.h"
 
 namespace kcs::service {
 namespace {
@@ -47,18 +46,7 @@ void decode_machine(const v1::Machine& machine, jobs::RequestOptions& decoded, V
                            "mm/s");
     decoded.rapid = machine.rapid_mm_s();
   }
-  if (machine.axes() != 2 && machine.axes() != 3) {
-    violations.add("options.machine.axes", fmt::format("is {}: give 2 (X, Y) or 3 (X, Y, Z)", machine.axes()));
-    return;
-  }
-  planning::AxisLimits& limits = decoded.planning.limits;
-  limits.axes = machine.axes();
-  limits.velocity = decode_vector("options.machine.velocity_mm_s", machine.velocity_mm_s(), limits.axes,
-                                  range::kMinVelocity, range::kMaxVelocity, "mm/s", violations);
-  limits.acceleration = decode_vector("options.machine.acceleration_mm_s2", machine.acceleration_mm_s2(), limits.axes,
-                                      range::kMinAcceleration, range::kMaxAcceleration, "mm/s²", violations);
-  limits.jerk = decode_vector("options.machine.jerk_mm_s3", machine.jerk_mm_s3(), limits.axes, range::kMinJerk,
-                              range::kMaxJerk, "mm/s³", violations);
+  decoded.planning.limits = decode_limits(machine, "options.machine", violations);
 }
 
 std::optional<planning::ToleranceKind> decode_tolerance_kind(v1::ToleranceKind kind) {
@@ -99,6 +87,22 @@ Enum known_or_refused(const std::string& field, std::optional<Enum> value, int n
 }
 
 }  // namespace
+
+planning::AxisLimits decode_limits(const v1::Machine& machine, const std::string& field, Violations& violations) {
+  planning::AxisLimits limits;
+  if (machine.axes() != 2 && machine.axes() != 3) {
+    violations.add(field + ".axes", fmt::format("is {}: give 2 (X, Y) or 3 (X, Y, Z)", machine.axes()));
+    return limits;
+  }
+  limits.axes = machine.axes();
+  limits.velocity = decode_vector(field + ".velocity_mm_s", machine.velocity_mm_s(), limits.axes, range::kMinVelocity,
+                                  range::kMaxVelocity, "mm/s", violations);
+  limits.acceleration = decode_vector(field + ".acceleration_mm_s2", machine.acceleration_mm_s2(), limits.axes,
+                                      range::kMinAcceleration, range::kMaxAcceleration, "mm/s²", violations);
+  limits.jerk = decode_vector(field + ".jerk_mm_s3", machine.jerk_mm_s3(), limits.axes, range::kMinJerk,
+                              range::kMaxJerk, "mm/s³", violations);
+  return limits;
+}
 
 jobs::RequestOptions decode_options(const v1::PlanOptions& options) {
   Violations violations;

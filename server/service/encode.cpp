@@ -66,14 +66,18 @@ void encode_summary(const Outcome& outcome, std::size_t axes, v1::PlanSummary& m
 
 }  // namespace
 
-void encode_options(const jobs::RequestOptions& options, v1::PlanOptions& message) {
-  const planning::AxisLimits& limits = options.planning.limits;
-  v1::Machine& machine = *message.mutable_machine();
-  machine.set_name(options.machine_name);
+void encode_limits(const planning::AxisLimits& limits, v1::Machine& machine) {
   machine.set_axes(static_cast<std::uint32_t>(limits.axes));
   encode_vector(limits.velocity, limits.axes, *machine.mutable_velocity_mm_s());
   encode_vector(limits.acceleration, limits.axes, *machine.mutable_acceleration_mm_s2());
   encode_vector(limits.jerk, limits.axes, *machine.mutable_jerk_mm_s3());
+}
+
+void encode_options(const jobs::RequestOptions& options, v1::PlanOptions& message) {
+  const planning::AxisLimits& limits = options.planning.limits;
+  v1::Machine& machine = *message.mutable_machine();
+  machine.set_name(options.machine_name);
+  encode_limits(limits, machine);
   if (options.rapid) machine.set_rapid_mm_s(*options.rapid);
   message.set_tolerance_mm(options.tolerance);
   message.set_tolerance_kind(encode_tolerance_kind(options.planning.tolerance_kind));

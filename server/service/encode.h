@@ -9,6 +9,9 @@
 
 namespace kcs::service {
 
+// The axes and their limits.
+void encode_limits(const planning::AxisLimits& limits, v1::Machine& machine);
+
 // All of them, with their defaults.
 void encode_options(const jobs::RequestOptions& options, v1::PlanOptions& message);
 

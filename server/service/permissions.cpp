@@ -19,15 +19,24 @@ struct Permission {
 };
 
 // All roles of one of a method's lines are needed. Whoever plays plans has to read what they are, too.
-constexpr std::array<Permission, 9> kPermissions = {{{"CreatePlan", {Role::kPlan}},
-                                                     {"GetPlan", {Role::kPlan}},
-                                                     {"GetPlan", {Role::kStream}},
-                                                     {"ListPlans", {Role::kPlan}},
-                                                     {"WatchPlan", {Role::kPlan}},
-                                                     {"DeletePlan", {Role::kPlan}},
-                                                     {"DescribeCorners", {Role::kPlan}},
-                                                     {"StreamSetpoints", {Role::kStream}},
-                                                     {"PlanLive", {Role::kPlan, Role::kStream}}}};
+constexpr std::array<Permission, 18> kPermissions = {{{"CreatePlan", {Role::kPlan}},
+                                                      {"GetPlan", {Role::kPlan}},
+                                                      {"GetPlan", {Role::kStream}},
+                                                      {"ListPlans", {Role::kPlan}},
+                                                      {"WatchPlan", {Role::kPlan}},
+                                                      {"DeletePlan", {Role::kPlan}},
+                                                      {"DescribeCorners", {Role::kPlan}},
+                                                      {"StreamSetpoints", {Role::kStream}},
+                                                      {"PlanLive", {Role::kPlan, Role::kStream}},
+                                                      {"AttachMachine", {Role::kMachine}},
+                                                      {"ListMachines", {Role::kMachine}},
+                                                      {"RunPlan", {Role::kMachine}},
+                                                      {"GetRun", {Role::kMachine}},
+                                                      {"HoldRun", {Role::kMachine}},
+                                                      {"ResumeRun", {Role::kMachine}},
+                                                      {"AbortRun", {Role::kMachine}},
+                                                      {"SetFeedOverride", {Role::kMachine}},
+                                                      {"WatchRun", {Role::kMachine}}}};
 
 }  // namespace
 

@@ -7,28 +7,16 @@
 #include <memory>
 #include <utility>
 
-#include "server/service/call_record.h"
 #include "server/service/encode.h"
 #include "server/service/live_call.h"
 #include "server/service/pace.h"
 #include "server/service/setpoint_stream.h"
-#include "server/service/status.h"
 #include "server/service/upload.h"
 #include "server/service/violations.h"
 
 namespace kcs::service {
 
-using security::Identity;
-
 namespace {
-
-// The caller, or where nobody is told apart the address that the call comes from, without its port:
-// "ipv4:192.0.2.7:51234" is a client on 192.0.2.7.
-jobs::Client client_of(const Identity& caller, const grpc::ServerContext& context) {
-  if (!caller.owner.empty()) return caller.owner;
-  const std::string peer = context.peer();
-  return peer.starts_with("ip") ? peer.substr(0, peer.rfind(':')) : peer;
-}
 
 template <typename Request>
 Request parse(grpc::ByteBuffer& bytes) {
@@ -39,26 +27,12 @@ Request parse(grpc::ByteBuffer& bytes) {
   return message;
 }
 
-// Counts a call for as long as it runs.
-class Running {
- public:
-  explicit Running(std::atomic<int>& count) : count_(count) { ++count_; }
-  ~Running() { --count_; }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
- private:
-  std::atomic<int>& count_;
-};
-
 }  // namespace
 
-PlanningService::PlanningService(Plans& plans, const Caps& caps, const AccessControl& access,
-                                 const Observation& observation)
+PlanningService::PlanningService(Plans& plans, const Caps& caps, Calls& calls)
     : plans_(plans),
       caps_(caps),
-      access_(access),
-      observation_(observation),
+      calls_(calls),
       uploads_({"uploads", caps.uploads}, {"client_uploads", caps.client_uploads}),
       streams_({"streams", caps.streams}, {"client_streams", caps.client_streams}),
       live_streams_({"live_streams", caps.live_streams}, {"client_live_streams", caps.client_live_streams}) {
@@ -73,25 +47,8 @@ void PlanningService::handle(const char* method, std::unique_ptr<grpc::internal:
   MarkMethodStreamed(service->FindMethodByName(method)->index(), handler.release());
 }
 
-template <typename Work>
-grpc::Status PlanningService::answer(std::string_view method, grpc::ServerContext& context, const Work& work) {
-  const Running running(running_);
-  CallRecord call(observation_, method, context);
-  CallEnd end;
-  try {
-    if (closed_) throw Stopping();
-    Caller caller{.identity = access_.admit(context, method), .request_id = call.request_id()};
-    caller.client = client_of(caller.identity, context);
-    caller.require_wanted = [this, &context] { require_wanted(context); };
-    end.status = work(call, caller);
-  } catch (...) {
-    end = end_by_current_exception();
-  }
-  return call.finish(end);
-}
-
 grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadReader* reader, v1::Plan* plan) {
-  return answer("CreatePlan", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
+  return calls_.answer("CreatePlan", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
     const Gate::Pass pass(uploads_, caller.client);
     Upload upload(caps_);
     grpc::ByteBuffer bytes;
@@ -106,7 +63,7 @@ grpc::Status PlanningService::create_plan(grpc::ServerContext* context, UploadRe
 }
 
 grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream* stream) {
-  return answer("PlanLive", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
+  return calls_.answer("PlanLive", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
     const Gate::Pass pass(live_streams_, caller.client);
     const CancelWatch::Call watched(cancel_watch_, *context);
     const auto send = [&](const v1::PlanLiveResponse& response) {
@@ -117,16 +74,16 @@ grpc::Status PlanningService::plan_live(grpc::ServerContext* context, LiveStream
     LiveCall live(caps_, send, watched.stop());
     grpc::ByteBuffer bytes;
     while (stream->Read(&bytes)) {
-      observation_.metrics.segments_planned.add(live.add(parse<v1::PlanLiveRequest>(bytes)));
+      calls_.observation().metrics.segments_planned.add(live.add(parse<v1::PlanLiveRequest>(bytes)));
     }
     if (context->IsCancelled()) throw Cancelled();
-    observation_.metrics.segments_planned.add(live.finish());
+    calls_.observation().metrics.segments_planned.add(live.finish());
     return grpc::Status::OK;
   });
 }
 
 grpc::Status PlanningService::GetPlan(grpc::ServerContext* context, const v1::GetPlanRequest* request, v1::Plan* plan) {
-  return answer("GetPlan", *context, [&](CallRecord& call, const Caller& caller) {
+  return calls_.answer("GetPlan", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
     *plan = plans_.get(caller, request->name());
     return grpc::Status::OK;
@@ -135,7 +92,7 @@ grpc::Status PlanningService::GetPlan(grpc::ServerContext* context, const v1::Ge
 
 grpc::Status PlanningService::ListPlans(grpc::ServerContext* context, const v1::ListPlansRequest* request,
                                         v1::ListPlansResponse* response) {
-  return answer("ListPlans", *context, [&](CallRecord& /*call*/, const Caller& caller) {
+  return calls_.answer("ListPlans", *context, [&](CallRecord& /*call*/, const Caller& caller) {
     *response = plans_.list(caller, *request);
     return grpc::Status::OK;
   });
@@ -143,7 +100,7 @@ grpc::Status PlanningService::ListPlans(grpc::ServerContext* context, const v1::
 
 grpc::Status PlanningService::WatchPlan(grpc::ServerContext* context, const v1::WatchPlanRequest* request,
                                         grpc::ServerWriter<v1::PlanProgress>* writer) {
-  return answer("WatchPlan", *context, [&](CallRecord& call, const Caller& caller) {
+  return calls_.answer("WatchPlan", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
     const Gate::Pass pass(streams_, caller.client);
     plans_.watch(caller, request->name(), [writer](const v1::PlanProgress& progress) {
@@ -155,7 +112,7 @@ grpc::Status PlanningService::WatchPlan(grpc::ServerContext* context, const v1::
 
 grpc::Status PlanningService::DeletePlan(grpc::ServerContext* context, const v1::DeletePlanRequest* request,
                                          google::protobuf::Empty* /*nothing*/) {
-  return answer("DeletePlan", *context, [&](CallRecord& call, const Caller& caller) {
+  return calls_.answer("DeletePlan", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
     plans_.remove(caller, request->name());
     return grpc::Status::OK;
@@ -164,11 +121,11 @@ grpc::Status PlanningService::DeletePlan(grpc::ServerContext* context, const v1:
 
 grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, const v1::StreamSetpointsRequest* request,
                                               grpc::ServerWriter<v1::SetpointBatch>* writer) {
-  return answer("StreamSetpoints", *context, [&](CallRecord& call, const Caller& caller) {
+  return calls_.answer("StreamSetpoints", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
     const Gate::Pass pass(streams_, caller.client);
     SetpointStream stream(plans_.load(caller, request->name()), *request);
-    Pace pace(*request, end_calls_.get_token(), [context] { return context->IsCancelled(); });
+    Pace pace(*request, calls_.ending(), [context] { return context->IsCancelled(); });
     v1::SetpointBatch batch;
     while (stream.next(batch)) {
       pace.wait_for(batch.first_index());
@@ -181,7 +138,7 @@ grpc::Status PlanningService::StreamSetpoints(grpc::ServerContext* context, cons
 
 grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* context, const v1::DescribeCornersRequest* request,
                                               grpc::ServerWriter<v1::CornerBatch>* writer) {
-  return answer("DescribeCorners", *context, [&](CallRecord& call, const Caller& caller) {
+  return calls_.answer("DescribeCorners", *context, [&](CallRecord& call, const Caller& caller) {
     call.note("plan", request->name());
     const Gate::Pass pass(streams_, caller.client);
     const jobs::PlanPointer kept = plans_.load(caller, request->name());
@@ -198,12 +155,7 @@ grpc::Status PlanningService::DescribeCorners(grpc::ServerContext* context, cons
 
 void PlanningService::count_setpoints(const v1::SetpointBatch& batch) const {
   if (batch.position_mm().empty()) return;
-  observation_.metrics.setpoints_sent.add(static_cast<std::uint64_t>(batch.position_mm(0).values_size()));
-}
-
-void PlanningService::require_wanted(const grpc::ServerContext& context) const {
-  if (context.IsCancelled()) throw Cancelled();
-  if (end_calls_.stop_requested()) throw Stopping();
+  calls_.observation().metrics.setpoints_sent.add(static_cast<std::uint64_t>(batch.position_mm(0).values_size()));
 }
 
 }  // namespace kcs::service

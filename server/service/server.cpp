@@ -18,8 +18,10 @@
 #include "server/observe/http_endpoint.h"
 #include "server/service/access_control.h"
 #include "server/service/archive.h"
+#include "server/service/calls.h"
 #include "server/service/caretaker.h"
 #include "server/service/listen_address.h"
+#include "server/service/machine_service.h"
 #include "server/service/observation.h"
 #include "server/service/planning_service.h"
 #include "server/service/plans.h"
@@ -62,7 +64,8 @@ grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const ServerOptions
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, options.observe.channelz ? 1 : 0);
   grpc::ResourceQuota quota("kcsd");
-  quota.SetMaxThreads(static_cast<int>(caps.uploads + caps.streams + caps.live_streams) + kSpareThreads);
+  quota.SetMaxThreads(static_cast<int>(caps.uploads + caps.streams + caps.live_streams + 2 * caps.machines) +
+                      kSpareThreads);
   builder.SetResourceQuota(quota);
   builder.SetMaxReceiveMessageSize(static_cast<int>(caps.message_bytes));
   // A compressed message is measured only when it has been blown up to a thousand times its size.
@@ -93,7 +96,10 @@ struct Server::Parts {
              [this](const jobs::PlanDesk::Planned& planned) { report(observation, planned); }),
         plans(desk, archive, caps),
         access(options.security),
-        service(plans, caps, access, observation),
+        calls(access, observation),
+        service(plans, caps, calls),
+        machine_runs(machines, plans, archive),
+        machine_service(machines, machine_runs, caps, calls),
         credentials(make_credentials(options.security)) {
     add_readings(observation.registry, desk);
   }
@@ -103,7 +109,7 @@ struct Server::Parts {
 
   // Until no call runs, or until `end`.
   void wait_until_idle(std::chrono::steady_clock::time_point end) const {
-    while (!service.idle() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kIdleCheck);
+    while (!calls.idle() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kIdleCheck);
   }
 
   const Caps caps;
@@ -115,7 +121,11 @@ struct Server::Parts {
   std::optional<Caretaker> caretaker;  // from when it listens until it stops
   Plans plans;
   AccessControl access;
+  Calls calls;
   PlanningService service;
+  Machines machines;
+  MachineRuns machine_runs;
+  MachineService machine_service;
   std::shared_ptr<grpc::ServerCredentials> credentials;  // stay as long as the server
   std::string address;
   std::unique_ptr<grpc::Server> server;
@@ -130,7 +140,7 @@ Server::Server(const ServerOptions& options) {
   parts_ = std::make_unique<Parts>(options);
   if (options.observe.channelz) grpc::channelz::experimental::InitChannelzService();  // for builders made afterwards
   grpc::ServerBuilder builder;
-  configure(builder, options).RegisterService(&parts_->service);
+  configure(builder, options).RegisterService(&parts_->service).RegisterService(&parts_->machine_service);
   if (options.listen == kSystemd) {
     serve_inherited(builder);
   } else {
@@ -138,6 +148,7 @@ Server::Server(const ServerOptions& options) {
   }
   grpc::HealthCheckServiceInterface* const health = parts_->server->GetHealthCheckService();
   health->SetServingStatus(v1::PlanningService::service_full_name(), false);
+  health->SetServingStatus(v1::MachineService::service_full_name(), false);
   parts_->observation.readiness.watch([health](bool ready) { health->SetServingStatus(ready); });
   parts_->caretaker.emplace(parts_->archive, parts_->desk, parts_->observation.readiness, parts_->caps,
                             options.store.lease);
@@ -187,17 +198,17 @@ void Server::stop(std::chrono::milliseconds grace) {
   parts_->acceptor.reset();
   parts_->observation.readiness.stop();
   parts_->server->GetHealthCheckService()->Shutdown();
-  parts_->service.close();
+  parts_->calls.close();
   const auto end = std::chrono::steady_clock::now() + grace;
   parts_->wait_until_idle(end);
   // A stream that is not yet at its end can go on elsewhere; that it must takes no time to say.
-  parts_->service.end_calls();
+  parts_->calls.end();
   parts_->wait_until_idle(std::chrono::steady_clock::now() + kFarewell);
   parts_->given_back = std::async(std::launch::async, [caretaker = &*parts_->caretaker] { caretaker->stop(); });
   // Only now, for gRPC closes a connection together with its last call, and what the client has not yet read by then is
   // lost. Without a call it waits until the client has confirmed that it read everything; an idle or a silent one may
   // never do so.
-  const std::chrono::milliseconds linger = parts_->service.idle() ? kLinger : std::chrono::milliseconds(0);
+  const std::chrono::milliseconds linger = parts_->calls.idle() ? kLinger : std::chrono::milliseconds(0);
   parts_->down = std::async(std::launch::async, [server = parts_->server.get(), linger] {
     server->Shutdown(std::chrono::system_clock::now() + linger);
   });

@@ -13,6 +13,7 @@
 #include "server/jobs/withdrawn.h"
 #include "server/planning/invalid_input.h"
 #include "server/planning/stopped.h"
+#include "server/runs/not_now.h"
 #include "server/service/printable.h"
 #include "server/service/status_details.h"
 #include "server/store/errors.h"
@@ -33,6 +34,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFields =
 constexpr std::string_view kStopping = "the server is stopping; try again later";
 constexpr std::string_view kNoStore = "the server cannot reach its store; try again later";
 constexpr std::string_view kStoreFull = "the disk of the server's store is full; its operator must make room";
+constexpr std::string_view kNotKept =
+    "the server does not keep this plan; send its request again: the same request gives the same plan";
 constexpr std::string_view kStoreBroken = "the server's store needs its operator; the log says why";
 constexpr std::string_view kGone = "the client gave up";
 // When another replica, or the next start of this one, may answer.
@@ -102,9 +105,19 @@ CallEnd end_by_current_exception() {
   } catch (const jobs::CapExceeded& refused) {
     return cap_exceeded(refused);
   } catch (const NotKept&) {
-    return {
-        failure(grpc::StatusCode::NOT_FOUND,
-                "the server does not keep this plan; send its request again: the same request gives the same plan")};
+    return {failure(grpc::StatusCode::NOT_FOUND, kNotKept)};
+  } catch (const runs::NotNow& refused) {
+    return {failure(grpc::StatusCode::FAILED_PRECONDITION, refused.what())};
+  } catch (const NotAttached& refused) {
+    return {failure(grpc::StatusCode::NOT_FOUND, refused.what())};
+  } catch (const NoSuchRun& refused) {
+    return {failure(grpc::StatusCode::NOT_FOUND, refused.what())};
+  } catch (const store::PlanNotKept&) {
+    return {failure(grpc::StatusCode::NOT_FOUND, kNotKept)};
+  } catch (const store::MachineHasRun& refused) {
+    return {failure(grpc::StatusCode::FAILED_PRECONDITION, refused.what())};
+  } catch (const AlreadyAttached& refused) {
+    return {failure(grpc::StatusCode::ALREADY_EXISTS, refused.what())};
   } catch (const Unauthenticated& refused) {
     return {failure(grpc::StatusCode::UNAUTHENTICATED, refused.what())};
   } catch (const Forbidden& refused) {

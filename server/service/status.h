@@ -26,6 +26,10 @@ struct CallEnd {
 //   store::StoreFull         RESOURCE_EXHAUSTED with a google.rpc.RetryInfo
 //   Cancelled                CANCELLED
 //   planning::Stopped        CANCELLED: its client has gone
+//   runs::NotNow             FAILED_PRECONDITION
+//   NotAttached, NoSuchRun   NOT_FOUND
+//   store::MachineHasRun     FAILED_PRECONDITION
+//   AlreadyAttached          ALREADY_EXISTS
 //   jobs::Withdrawn          ABORTED: the plan was deleted before it was made
 //   std::bad_alloc           RESOURCE_EXHAUSTED with a google.rpc.RetryInfo
 //   anything else            INTERNAL with the reason: a defect of kcs
@@ -34,6 +38,22 @@ CallEnd end_by_current_exception();
 // Thrown where a plan is asked for that the server does not keep, or that belongs to somebody else: which of the two it
 // is, is nobody's business.
 struct NotKept {};
+
+// Thrown where something is asked of a machine, "machines/NAME", that no gateway has attached to this server.
+struct NotAttached : std::runtime_error {
+  explicit NotAttached(const std::string& machine)
+      : std::runtime_error(machine + " is not attached to this server: is its gateway running, and connected here?") {}
+};
+
+// Thrown where a run is asked for that is not kept, or is over.
+struct NoSuchRun : std::runtime_error {
+  explicit NoSuchRun(const std::string& run) : std::runtime_error("there is no such run: \"" + run + "\"") {}
+};
+
+// Thrown where a second gateway wants a machine. what() names it.
+struct AlreadyAttached : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 // Thrown where nobody knows who calls. what() says what to send; never a token.
 struct Unauthenticated : std::runtime_error {

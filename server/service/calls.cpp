@@ -1,0 +1,31 @@
+#include "server/service/calls.h"
+
+#include <string>
+
+namespace kcs::service {
+namespace {
+
+// The caller, or where nobody is told apart the address that the call comes from, without its port:
+// "ipv4:192.0.2.7:51234" is a client on 192.0.2.7.
+jobs::Client client_of(const security::Identity& caller, const grpc::ServerContext& context) {
+  if (!caller.owner.empty()) return caller.owner;
+  const std::string peer = context.peer();
+  return peer.starts_with("ip") ? peer.substr(0, peer.rfind(':')) : peer;
+}
+
+}  // namespace
+
+Caller Calls::admit(std::string_view method, const CallRecord& call, grpc::ServerContext& context) const {
+  if (closed_) throw Stopping();
+  Caller caller{.identity = access_.admit(context, method), .request_id = call.request_id()};
+  caller.client = client_of(caller.identity, context);
+  caller.require_wanted = [this, &context] { require_wanted(context); };
+  return caller;
+}
+
+void Calls::require_wanted(const grpc::ServerContext& context) const {
+  if (context.IsCancelled()) throw Cancelled();
+  if (end_.stop_requested()) throw Stopping();
+}
+
+}  // namespace kcs::service

@@ -1,0 +1,112 @@
+#include "server/service/machine_runs.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "server/runs/not_now.h"
+#include "server/service/status.h"
+
+namespace kcs::service {
+namespace {
+
+constexpr std::chrono::milliseconds kReport{50};  // those who watch are told no more often
+constexpr std::chrono::milliseconds kLook{10};
+
+// Where nobody is told apart, everybody is the controller.
+const std::string& controller_of(const Caller& caller) { return caller.identity.owner; }
+
+}  // namespace
+
+runs::Run MachineRuns::begin(const Caller& caller, const std::string& machine, const std::string& plan, double rate) {
+  const Machines::MachinePointer attached = machines_.find(machine);
+  const jobs::PlanPointer loaded = plans_.load(caller, plan);
+  attached->require_ready_for(*loaded);
+  const runs::Run run = decode_record(
+      archive_.add_run({.machine = machine, .plan = plan, .controller = controller_of(caller), .feed_override = rate}));
+  attached->begin(run, loaded);
+  return attached->run().value_or(run);
+}
+
+runs::Run MachineRuns::get(const std::string& name) {
+  try {
+    const auto run = machines_.machine_of(name)->run();
+    if (run && run->name == name) return *run;
+  } catch (const NotAttached&) {
+    // What was written down last.
+  }
+  const auto record = archive_.find_run(name);
+  if (!record) throw NoSuchRun(name);
+  return decode_record(*record);
+}
+
+runs::Run MachineRuns::hold(const std::string& run) { return noted(machines_.machine_of(run)->hold(run)); }
+
+runs::Run MachineRuns::abort(const std::string& run) { return noted(machines_.machine_of(run)->abort(run)); }
+
+runs::Run MachineRuns::resume(const Caller& caller, const std::string& run, bool take_over) {
+  return noted(require_control(caller, run, take_over)->resume(run));
+}
+
+runs::Run MachineRuns::set_rate(const Caller& caller, const std::string& run, double rate, bool take_over) {
+  return noted(require_control(caller, run, take_over)->set_rate(run, rate));
+}
+
+void MachineRuns::watch(const Caller& caller, const std::string& name,
+                        const std::function<void(const runs::Run&)>& send) {
+  runs::Run seen = get(name);
+  send(seen);
+  while (!is_over(seen.state)) {
+    caller.require_wanted();
+    std::this_thread::sleep_for(kReport);
+    runs::Run now = get(name);
+    while (now == seen) {
+      caller.require_wanted();
+      std::this_thread::sleep_for(kLook);
+      now = get(name);
+    }
+    seen = std::move(now);
+    send(seen);
+  }
+}
+
+void MachineRuns::take_up(const Caller& caller, runs::Machine& machine, const std::string& name) {
+  const auto record = archive_.find_run(name);
+  if (!record || record->state != store::RunRecordState::kOpen) throw NoSuchRun(name);
+  Caller of_run = caller;
+  of_run.identity = {.owner = name, .roles = {}};  // to which the plan belongs as well
+  machine.begin(decode_record(*record), plans_.load(of_run, record->plan));
+  spdlog::info("{} goes on with {}", machine.profile().name, name);
+}
+
+void MachineRuns::note(const runs::Machine& machine, std::optional<runs::Run>& seen) {
+  const auto run = machine.run();
+  if (!run) return;
+  const bool is_news = !seen || seen->name != run->name || seen->state != run->state || seen->rate != run->rate ||
+                       seen->controller != run->controller;
+  if (!is_news) return;
+  seen = run;
+  ledger_.note(*run);
+}
+
+Machines::MachinePointer MachineRuns::require_control(const Caller& caller, const std::string& name, bool take_over) {
+  Machines::MachinePointer machine = machines_.machine_of(name);
+  const auto run = machine->run();
+  if (!run || run->name != name) throw runs::NotNow(name + " is not what the machine is doing");
+  if (run->controller != controller_of(caller)) {
+    if (!take_over) {
+      throw runs::NotNow(name + " is controlled by " + run->controller + ": ask for it with take_over");
+    }
+    machine->control(name, controller_of(caller));
+  }
+  return machine;
+}
+
+runs::Run MachineRuns::noted(const runs::Run& run) {
+  ledger_.note(run);
+  return run;
+}
+
+}  // namespace kcs::service

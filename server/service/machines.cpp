@@ -1,0 +1,82 @@
+#include "server/service/machines.h"
+
+#include <chrono>
+
+#include "server/service/status.h"
+
+namespace kcs::service {
+namespace {
+
+// For a superseded attachment to end.
+constexpr std::chrono::seconds kFarewell{1};
+
+bool has_open_run(const runs::Machine& machine) {
+  const auto run = machine.run();
+  return run && !is_over(run->state);
+}
+
+}  // namespace
+
+Machines::Attachment::Attachment(Machines& machines, const runs::MachineProfile& profile, const std::string& instance,
+                                 const runs::MachineReport& first)
+    : machines_(machines) {
+  std::unique_lock lock(machines_.mutex_);
+  Place* place = &machines_.places_[profile.name];
+  if (place->attached && !instance.empty() && place->instance == instance) {
+    place->superseded = true;
+    machines_.detached_.wait_for(lock, kFarewell, [&] { return !machines_.places_[profile.name].attached; });
+    place = &machines_.places_[profile.name];
+  }
+  if (place->attached) {
+    throw AlreadyAttached(profile.name +
+                          " is attached by another gateway: stop that one, or give this machine a name "
+                          "of its own");
+  }
+  place->attached = true;
+  place->superseded = false;
+  place->instance = instance;
+  const bool same = place->machine != nullptr && place->machine->profile() == profile;
+  if (!same) place->machine = std::make_shared<runs::Machine>(profile);
+  machine_ = place->machine;
+  machine_->attach(first);
+}
+
+Machines::Attachment::~Attachment() {
+  const std::lock_guard lock(machines_.mutex_);
+  const auto place = machines_.places_.find(machine_->profile().name);
+  place->second.attached = false;
+  if (!has_open_run(*machine_)) machines_.places_.erase(place);
+  machines_.detached_.notify_all();
+}
+
+bool Machines::Attachment::superseded() const {
+  const std::lock_guard lock(machines_.mutex_);
+  return machines_.places_.at(machine_->profile().name).superseded;
+}
+
+Machines::MachinePointer Machines::try_find(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto place = places_.find(name);
+  return place != places_.end() && place->second.attached ? place->second.machine : nullptr;
+}
+
+Machines::MachinePointer Machines::find(const std::string& name) const {
+  MachinePointer machine = try_find(name);
+  if (machine == nullptr) throw NotAttached(name);
+  return machine;
+}
+
+Machines::MachinePointer Machines::machine_of(const std::string& run) const {
+  return find(run.substr(0, run.find("/runs/")));
+}
+
+std::vector<Machines::MachinePointer> Machines::all() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<MachinePointer> machines;
+  for (const auto& [name, place] : places_) {
+    if (place.attached) machines.push_back(place.machine);
+  }
+  return machines;
+}
+
+}  // namespace kcs::service
