@@ -13,7 +13,9 @@
 #include "client/cli/gnuplot.h"
 #include "client/cli/json.h"
 #include "client/cli/live.h"
+#include "client/cli/machine_commands.h"
 #include "client/cli/numbers.h"
+#include "client/cli/output.h"
 #include "client/cli/pending_file.h"
 #include "client/cli/plan_table.h"
 #include "client/cli/planning_session.h"
@@ -24,11 +26,6 @@
 
 namespace kcs::cli {
 namespace {
-
-void print(const std::string& text) {
-  if (!(std::cout << text << std::flush))
-    throw client::FileError("standard output cannot be written; is the disk full?");
-}
 
 std::string program_name(const Options& options) { return options.file == "-" ? "standard input" : options.file; }
 
@@ -129,6 +126,17 @@ void run_command(const Options& options) {
       return corners(options);
     case Command::kPlot:
       return plot(options);
+    case Command::kMachines:
+      return list_machines(options);
+    case Command::kRun:
+      return run_plan(options);
+    case Command::kHold:
+    case Command::kResume:
+    case Command::kAbort:
+    case Command::kOverride:
+      return operate_run(options);
+    case Command::kWatch:
+      return watch_run(options);
   }
 }
 

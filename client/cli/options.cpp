@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "client/cli/machine_options.h"
 #include "client/common/connection_options.h"
 #include "client/common/exit_code.h"
 
@@ -90,11 +91,13 @@ void add_commands(CLI::App& app, Options& options) {
 }  // namespace
 
 std::optional<client::Message> parse_command_line(int argc, const char* const* argv, Options& options) {
-  CLI::App app("Plans G-code programs with kcs: cycle time, corners, setpoints, pictures.", "kcsctl");
+  CLI::App app("Plans G-code programs with kcs (cycle time, corners, setpoints, pictures),\nand runs them on machines.",
+               "kcsctl");
   app.require_subcommand(1);
-  app.footer("kcsctl COMMAND --help says more about a command.\n" + footer());
+  app.footer(std::string("kcsctl COMMAND --help says more about a command.\n") + client::kExitCodeHelp + ".");
   app.get_formatter()->column_width(26);
   add_commands(app, options);
+  add_machine_commands(app, options);
   return client::parse(app, argc, argv);
 }
 

@@ -13,7 +13,31 @@
 
 namespace kcs::cli {
 
-enum class Command { kPlan, kStream, kLive, kCorners, kPlot };
+enum class Command {
+  kPlan,
+  kStream,
+  kLive,
+  kCorners,
+  kPlot,
+  kMachines,
+  kRun,
+  kHold,
+  kResume,
+  kAbort,
+  kOverride,
+  kWatch
+};
+
+// Of the commands that are about machines and their runs. Machines may be named without their "machines/".
+struct RunOptions {
+  std::string machine;                          // run: where
+  std::string plan;                             // run: of the server; empty: the program's
+  std::string profile;                          // run: to plan with; empty: the machine's own limits
+  std::string run;                              // hold, resume, abort, override, watch; a machine: what it is on
+  std::optional<double> feed_override_percent;  // run, override
+  bool watch = false;                           // run
+  bool take_over = false;                       // resume, override, watch
+};
 
 struct Options {
   Command command = Command::kPlan;
@@ -23,7 +47,9 @@ struct Options {
   double period_s = 0.001;    // between two setpoints; of use to stream, live and plot alone
   client::Connection server;  // without an address: plan inside this process
 
-  bool json = false;                      // plan, live, corners
+  RunOptions run;
+
+  bool json = false;                      // all but stream and plot
   std::string output;                     // stream, live (empty: none), plot; "-": standard output
   std::vector<client::Channel> channels;  // stream, live
   double from_s = 0;                      // plot: the window of time

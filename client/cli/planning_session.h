@@ -7,6 +7,10 @@
 
 namespace kcs::cli {
 
+// Plans the program in this file; "-": from standard input. Throws client::Error, or client::FileError if the program
+// cannot be read.
+client::Plan plan_file(client::Planner& planner, const std::string& file, const client::PlanOptions& options);
+
 // Plans the program of the command line.
 class PlanningSession {
  public:

@@ -5,7 +5,7 @@ namespace kcs::client {
 
 enum ExitCode {
   kDone = 0,
-  kRefused = 1,   // the program, the machine or an option cannot be planned
+  kRefused = 1,   // the program, the machine or an option cannot be planned; a run did not finish
   kUsage = 2,     // the command line is wrong
   kNoServer = 3,  // no server answers, or the connection broke off
   kNoFile = 4,    // a file cannot be read or written, or a helper program is missing

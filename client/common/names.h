@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "client/sdk/plan.h"
+#include "client/sdk/run.h"
 
 namespace kcs::client {
 
@@ -30,6 +31,46 @@ constexpr std::string_view name_of(CornerStrategy strategy) {
 
 constexpr std::string_view name_of(ToleranceKind kind) {
   return kind == ToleranceKind::kCornerDistance ? "corner" : "contour";
+}
+
+constexpr std::string_view name_of(RunState state) {
+  switch (state) {
+    case RunState::kWaiting:
+      return "waiting";
+    case RunState::kRunning:
+      return "running";
+    case RunState::kStopping:
+      return "stopping";
+    case RunState::kHeld:
+      return "held";
+    case RunState::kFinished:
+      return "finished";
+    case RunState::kAborted:
+      return "aborted";
+    case RunState::kFailed:
+      return "failed";
+  }
+  return "";
+}
+
+constexpr std::string_view name_of(MachineState state) {
+  switch (state) {
+    case MachineState::kUnknown:
+      return "not attached";
+    case MachineState::kSwitchedOff:
+      return "switched off";
+    case MachineState::kReady:
+      return "ready";
+    case MachineState::kRunning:
+      return "running";
+    case MachineState::kStopping:
+      return "stopping";
+    case MachineState::kHeld:
+      return "held";
+    case MachineState::kFault:
+      return "fault";
+  }
+  return "";
 }
 
 }  // namespace kcs::client

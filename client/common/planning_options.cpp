@@ -32,10 +32,10 @@ std::string shipped_names() {
 
 }  // namespace
 
-void add_planning_options(CLI::App& app, std::string& machine, PlanOptions& options) {
+void add_planning_options(CLI::App& app, std::string& machine, PlanOptions& options, const PlanningDefaults& defaults) {
   app.add_option("--machine", machine,
                  std::string("limits of the machine: a profile's file name, or a\nbuilt-in profile (default: ") +
-                     kDefaultMachine + "):\n" + shipped_names())
+                     defaults.machine + "):\n" + shipped_names())
       ->option_text("PROFILE.toml");
   app.add_option("--tolerance", options.tolerance_mm, "how far corners may be cut (default: 0.01)")->option_text("MM");
   add_choice(app, "--tolerance-kind", options.tolerance_kind,
@@ -46,7 +46,7 @@ void add_planning_options(CLI::App& app, std::string& machine, PlanOptions& opti
               CornerStrategy::kBlended, CornerStrategy::kExactStop},
              "how corners are taken: auto (default), interrupted,\nuninterrupted, blended, exact-stop");
   app.add_option("--feed", options.feed_mm_s, "replaces every programmed feed and the rapid")->option_text("MM_PER_S");
-  app.add_option("--start", options.start_mm, "where the program starts (default: 0,0,0)")
+  app.add_option("--start", options.start_mm, "where the program starts (default: " + defaults.start + ")")
       ->delimiter(',')
       ->option_text("X,Y,Z");
 }

@@ -20,6 +20,11 @@ std::size_t terminal_width() {
 
 }  // namespace
 
+std::string bar(double share, std::size_t length) {
+  const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(length));
+  return fmt::format("[{}{}]", std::string(filled, '='), std::string(length - filled, ' '));
+}
+
 std::string progress_line(const std::string& what, std::uint64_t done, std::uint64_t total, std::size_t width) {
   constexpr std::size_t kWidest = 60;
   const double share = total == 0 ? 1 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
@@ -27,8 +32,7 @@ std::string progress_line(const std::string& what, std::uint64_t done, std::uint
   const std::size_t around = what.size() + percent.size() + 4;  // a blank on either side, and the brackets
   if (width < around + 3) return percent;
   const std::size_t length = std::min(width - around, kWidest);
-  const auto filled = static_cast<std::size_t>(share * static_cast<double>(length));
-  return fmt::format("{} [{}{}] {}", what, std::string(filled, '='), std::string(length - filled, ' '), percent);
+  return fmt::format("{} {} {}", what, bar(share, length), percent);
 }
 
 ProgressBar::ProgressBar(std::string what) : what_(std::move(what)), on_terminal_(::isatty(STDERR_FILENO) == 1) {}

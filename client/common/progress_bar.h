@@ -7,6 +7,9 @@
 
 namespace kcs::client {
 
+// "[=====     ]": of `length` columns between the brackets the share (cut to 0 … 1) that is filled.
+std::string bar(double share, std::size_t length);
+
 // The bar in one line of at most `width` columns: "setpoints [======>      ]  52 %".
 std::string progress_line(const std::string& what, std::uint64_t done, std::uint64_t total, std::size_t width);
 

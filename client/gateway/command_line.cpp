@@ -20,7 +20,7 @@ void add_source(CLI::App& app, CommandLine& options) {
   app.add_option("--plan", options.plan, "plan to play that the server keeps, instead of FILE")
       ->excludes(file)
       ->option_text("plans/NAME");
-  client::add_connection_options(app, options.server, "the kcsd to take the plan from")->required();
+  client::add_connection_options(app, options.server, "the kcsd to take the plan from");
 }
 
 // CLI::Range lets NaN pass.
@@ -54,6 +54,22 @@ void add_playing(CLI::App& app, CommandLine& options) {
   app.add_flag("--json", options.json, "print one JSON object instead of the table");
 }
 
+CLI::App* add_attach(CLI::App& app, CommandLine& options) {
+  CLI::App* attach = app.add_subcommand("attach", "stay beside a machine and play what a server runs on it");
+  attach->add_option("--config", options.attach, "settings; deploy/gateway.toml has them all")
+      ->required()
+      ->option_text("FILE.toml");
+  client::add_connection_options(*attach, options.attach_server,
+                                 "the kcsd to attach the machine to, instead of\nthat of the settings");
+  attach
+      ->add_option("--record", options.attach_record,
+                   "write commanded and actual positions of every tick\n(simulated drives)")
+      ->option_text("FILE.csv");
+  attach->footer("SIGTERM or SIGINT brings the machine to rest and ends it.\n" + std::string(client::kExitCodeHelp) +
+                 ".");
+  return attach;
+}
+
 }  // namespace
 
 std::optional<client::Message> parse_command_line(int argc, const char* const* argv, CommandLine& options) {
@@ -64,7 +80,10 @@ std::optional<client::Message> parse_command_line(int argc, const char* const* a
   add_source(app, options);
   client::add_planning_options(app, options.machine, options.planning);
   add_playing(app, options);
-  app.callback([&options] {
+  const CLI::App* attach = add_attach(app, options);
+  app.callback([&options, attach] {
+    if (attach->parsed()) return;
+    if (options.server.address.empty()) throw CLI::RequiredError("--server");
     if (options.file.empty() && options.plan.empty()) throw CLI::RequiredError("Either FILE or --plan");
   });
   return client::parse(app, argc, argv);

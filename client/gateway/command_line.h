@@ -1,6 +1,7 @@
 // The command line of kcs-gateway.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,12 @@ struct CommandLine {
   client::PlanOptions planning;  // all but the machine
   PlaybackOptions playback;
   bool json = false;
+
+  // `attach` instead of all that: the file that says how, what the command line says about the server instead of it
+  // (empty address: nothing), and where to write every tick.
+  std::optional<std::filesystem::path> attach;
+  client::Connection attach_server;
+  std::optional<std::filesystem::path> attach_record;
 };
 
 // Reads the command line into `options`. Returns a message if there is nothing to run.

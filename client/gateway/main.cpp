@@ -1,4 +1,4 @@
-// kcs-gateway: plays a plan at the drives' period into simulated drives.
+// kcs-gateway: plays a plan at the drives' period into simulated drives, or stays beside a machine (attach).
 #include <algorithm>
 #include <cstdint>
 #include <iostream>
@@ -9,6 +9,8 @@
 #include "client/common/program_file.h"
 #include "client/common/progress_bar.h"
 #include "client/gateway/command_line.h"
+#include "client/gateway/machine/attach.h"
+#include "client/gateway/machine/settings.h"
 #include "client/gateway/plan_source.h"
 #include "client/gateway/playback.h"
 #include "client/gateway/report.h"
@@ -32,7 +34,20 @@ PlaybackResult play_with_progress(PlanSource source, const client::Plan& plan, P
   return play(std::move(source), plan, options);
 }
 
+Settings settings_of(const CommandLine& options) {
+  Settings settings = read_settings(*options.attach);
+  const client::Connection& server = options.attach_server;
+  const std::filesystem::path token = server.token_file.empty() ? settings.server.token_file : server.token_file;
+  if (!server.address.empty()) settings.server = server;
+  settings.server.token_file = token;
+  if (settings.server.address.empty()) {
+    throw client::SettingsError(options.attach->string() + ": server.address is missing; or give --server HOST:PORT");
+  }
+  return settings;
+}
+
 client::ExitCode run(const CommandLine& options) {
+  if (options.attach) return attach(settings_of(options), options.attach_record);
   if (options.playback.record) client::require_not_the_program(options.file, *options.playback.record);
   PlanSource source = make_source(options);
   const client::Plan plan = source.obtain();

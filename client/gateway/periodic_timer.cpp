@@ -17,15 +17,16 @@ std::int64_t now() {
 
 }  // namespace
 
-PeriodicTimer::PeriodicTimer(double period_s) : period_(period_s * static_cast<double>(kNanoseconds)), start_(now()) {}
+PeriodicTimer::PeriodicTimer(double period_s)
+    : period_(period_s * static_cast<double>(kNanoseconds)), start_(now()), deadline_(start_) {}
 
 std::int64_t PeriodicTimer::wait() {
   ++ticks_;
-  const std::int64_t deadline = start_ + std::llround(static_cast<double>(ticks_) * period_);
-  const timespec wake_at = {.tv_sec = deadline / kNanoseconds, .tv_nsec = deadline % kNanoseconds};
+  deadline_ = start_ + std::llround(static_cast<double>(ticks_) * period_ + shifted_);
+  const timespec wake_at = {.tv_sec = deadline_ / kNanoseconds, .tv_nsec = deadline_ % kNanoseconds};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake_at, nullptr) == EINTR) {
   }
-  return now() - deadline;
+  return now() - deadline_;
 }
 
 }  // namespace kcs::gateway

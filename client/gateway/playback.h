@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "client/gateway/lateness.h"
+#include "client/gateway/clock_figures.h"
 #include "client/gateway/measurement.h"
 #include "client/gateway/plan_source.h"
 #include "client/gateway/player.h"
@@ -25,14 +25,6 @@ struct PlaybackOptions {
   double patience_s = kPatienceS;                        // gives up when no setpoint has come for so long, > 0
   std::optional<std::filesystem::path> record;           // where to write the run as comma-separated values
   std::function<void(std::uint64_t ticks)> on_progress;  // called now and then, by another thread
-};
-
-// What the clock was like; of no meaning in simulated time.
-struct ClockFigures {
-  bool fifo = false;             // the playing thread ran in real time
-  bool memory_locked = false;    // its memory stayed in RAM
-  Lateness lateness;             // of the ticks
-  std::uint64_t late_ticks = 0;  // that began more than one period late
 };
 
 struct PlaybackResult {

@@ -13,10 +13,6 @@
 namespace kcs::client {
 namespace {
 
-// A server that answers a ping keeps a call alive, even one that plans for an hour; one that does not ends it.
-constexpr int kPingAfterSilenceMs = 10'000;
-constexpr int kPingTimeoutMs = 10'000;
-
 [[noreturn]] void refuse(const std::string& what) { throw Error("INVALID_ARGUMENT", what); }
 
 bool is_unix(const std::string& address) { return address.starts_with("unix:"); }
@@ -61,11 +57,16 @@ std::shared_ptr<grpc::ChannelCredentials> credentials(const Connection& connecti
 
 }  // namespace
 
-std::shared_ptr<grpc::Channel> open_channel(const Connection& connection) {
+std::shared_ptr<grpc::Channel> open_channel(const Connection& connection, const ChannelPace& pace) {
   grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kPingAfterSilenceMs);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kPingTimeoutMs);
+  const auto set = [&arguments](const std::string& name, std::chrono::milliseconds value) {
+    arguments.SetInt(name, static_cast<int>(value.count()));
+  };
+  set(GRPC_ARG_KEEPALIVE_TIME_MS, pace.ping_after_silence);
+  set(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, pace.ping_timeout);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number of them
+  set(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, pace.first_pause);
+  set(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, pace.longest_pause);
   return grpc::CreateCustomChannel(connection.address, credentials(connection), arguments);
 }
 

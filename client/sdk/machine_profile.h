@@ -12,19 +12,16 @@
 
 #include <filesystem>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "client/sdk/machine.h"
+#include "client/sdk/settings_error.h"
 
 namespace kcs::client {
 
-// A profile that cannot be used. what() reads "FILE:LINE:COLUMN: key: what is wrong and what to do".
-class ProfileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+// A profile that cannot be used.
+using ProfileError = SettingsError;
 
 // Reads a profile. Throws ProfileError if the file cannot be read, is not TOML, or does not say just what is wanted: a
 // key that is missing, unknown or of the wrong kind is an error, never passed over.

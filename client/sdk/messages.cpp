@@ -136,13 +136,7 @@ v1::PlanState to_message(PlanState state) {
 
 PlanOptions from_message(const v1::PlanOptions& message) {
   PlanOptions options;
-  options.machine = {.name = message.machine().name(),
-                     .axes = message.machine().axes(),
-                     .velocity_mm_s = to_vector(message.machine().velocity_mm_s()),
-                     .acceleration_mm_s2 = to_vector(message.machine().acceleration_mm_s2()),
-                     .jerk_mm_s3 = to_vector(message.machine().jerk_mm_s3()),
-                     .rapid_mm_s = {}};
-  if (message.machine().has_rapid_mm_s()) options.machine.rapid_mm_s = message.machine().rapid_mm_s();
+  options.machine = client::from_message(message.machine());
   if (message.has_tolerance_mm()) options.tolerance_mm = message.tolerance_mm();
   options.tolerance_kind = message.tolerance_kind() == v1::TOLERANCE_KIND_CORNER_DISTANCE
                                ? ToleranceKind::kCornerDistance
@@ -278,6 +272,17 @@ v1::PathChunk to_message(const PointPath& path, std::size_t axes, std::size_t fi
     part.set_dwell_s(stop.dwell_s);
   }
   return message;
+}
+
+Machine from_message(const v1::Machine& message) {
+  Machine machine{.name = message.name(),
+                  .axes = message.axes(),
+                  .velocity_mm_s = to_vector(message.velocity_mm_s()),
+                  .acceleration_mm_s2 = to_vector(message.acceleration_mm_s2()),
+                  .jerk_mm_s3 = to_vector(message.jerk_mm_s3()),
+                  .rapid_mm_s = {}};
+  if (message.has_rapid_mm_s()) machine.rapid_mm_s = message.rapid_mm_s();
+  return machine;
 }
 
 Plan from_message(const v1::Plan& message) {

@@ -27,6 +27,7 @@ std::size_t count_points(const PointPath& path, std::size_t axes);
 // The points [first, first + count) of a path with `axes` numbers a point, and what belongs to them.
 v1::PathChunk to_message(const PointPath& path, std::size_t axes, std::size_t first, std::size_t count);
 
+Machine from_message(const v1::Machine& message);
 Plan from_message(const v1::Plan& message);
 PlanProgress from_message(const v1::PlanProgress& message);
 Corner from_message(const v1::Corner& message);

@@ -1,6 +1,5 @@
 #include "client/sdk/planner.h"
 
-#include <fmt/core.h>
 #include <grpcpp/channel.h>
 
 #include <algorithm>
@@ -12,33 +11,24 @@
 #include "client/sdk/channel.h"
 #include "client/sdk/live_call.h"
 #include "client/sdk/messages.h"
-#include "client/sdk/no_connection.h"
+#include "client/sdk/server_link.h"
 #include "client/sdk/setpoint_call.h"
-#include "client/sdk/status_error.h"
 
 namespace kcs::client {
-namespace {
-
-constexpr std::chrono::milliseconds kLookForStop{50};  // while waiting for a connection
-constexpr std::chrono::seconds kLookForReason{1};      // when there was none
-
-}  // namespace
 
 class Planner::Link {
  public:
-  // Without an address: the channel leads to a server inside the process, which is always there.
   Link(std::shared_ptr<grpc::Channel> channel, Connection server)
-      : channel_(std::move(channel)), stub_(v1::PlanningService::NewStub(channel_)), server_(std::move(server)) {}
+      : server_(std::move(channel), std::move(server)), stub_(v1::PlanningService::NewStub(server_.channel())) {}
 
   // The stub, when the server can be reached; throws Error if it cannot.
   v1::PlanningService::Stub& stub(const std::stop_token& stop) {
-    if (!server_.address.empty()) await_server(stop);
+    server_.await_server(stop);
     return *stub_;
   }
 
-  void check(const grpc::Status& status) const {
-    if (!status.ok()) throw_error(status, server_.address);
-  }
+  void check(const grpc::Status& status) const { server_.check(status); }
+  void set_deadline(grpc::ClientContext& context) const { server_.set_deadline(context); }
 
   // Sends the options, then what `next_piece` puts into the request until it returns false.
   Plan create(const PlanOptions& options, const std::stop_token& stop,
@@ -60,7 +50,7 @@ class Planner::Link {
 
   SetpointStream stream(const v1::StreamSetpointsRequest& request, const std::stop_token& stop) {
     stub(stop);
-    return SetpointStream(std::make_unique<SetpointStream::Call>(stub_, server_.address, request, stop));
+    return SetpointStream(std::make_unique<SetpointStream::Call>(stub_, server_.address(), request, stop));
   }
 
   LiveStream live(const PlanOptions& options, const LiveOptions& output, const std::stop_token& stop) {
@@ -68,41 +58,12 @@ class Planner::Link {
     v1::PlanLiveRequest request;
     *request.mutable_options() = to_message(options);
     *request.mutable_output() = to_message(output);
-    return LiveStream(std::make_unique<LiveStream::Call>(stub_, server_.address, request, stop));
-  }
-
-  // For questions that a server answers at once.
-  void set_deadline(grpc::ClientContext& context) const {
-    if (!server_.address.empty()) context.set_deadline(std::chrono::system_clock::now() + server_.patience);
+    return LiveStream(std::make_unique<LiveStream::Call>(stub_, server_.address(), request, stop));
   }
 
  private:
-  // A refused connection is reported at once, a host that does not answer when the patience is over.
-  void await_server(const std::stop_token& stop) {
-    using Clock = std::chrono::system_clock;  // gRPC's deadlines go by it
-    const auto deadline = Clock::now() + server_.patience;
-    while (true) {
-      const grpc_connectivity_state state = channel_->GetState(/*try_to_connect=*/true);
-      if (state == GRPC_CHANNEL_READY) return;
-      if (stop.stop_requested())
-        throw Error("CANCELLED", fmt::format("stopped while connecting to {}", server_.address));
-      if (state == GRPC_CHANNEL_TRANSIENT_FAILURE) throw Error("UNAVAILABLE", explain_no_connection(server_, reason()));
-      if (Clock::now() >= deadline) throw Error("UNAVAILABLE", explain_no_connection(server_, "no answer"));
-      channel_->WaitForStateChange(state, std::min(deadline, Clock::now() + kLookForStop));
-    }
-  }
-
-  // What gRPC says about a connection that failed. It does so to calls only.
-  std::string reason() {
-    grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + kLookForReason);
-    v1::Plan plan;
-    return stub_->GetPlan(&context, {}, &plan).error_message();
-  }
-
-  std::shared_ptr<grpc::Channel> channel_;
+  ServerLink server_;
   std::shared_ptr<v1::PlanningService::Stub> stub_;
-  Connection server_;
 };
 
 Planner::Planner(const std::string& address, std::chrono::milliseconds patience)

@@ -129,6 +129,40 @@ TEST(CommandLine, EveryStrategyThatMayBeAskedForHasAName) {
   }
 }
 
+TEST(CommandLine, RunsPlanForTheMachineItselfUnlessToldOtherwise) {
+  const auto [options, message] =
+      parse({"run", "part.ngc", "--on", "mill", "--server", "localhost:1", "--override", "80", "--watch"});
+  ASSERT_FALSE(message.has_value()) << message->text;
+  EXPECT_EQ(options.command, Command::kRun);
+  EXPECT_EQ(options.file, "part.ngc");
+  EXPECT_EQ(options.run.machine, "mill");
+  EXPECT_EQ(options.run.profile, "") << "the machine's own";
+  EXPECT_EQ(options.run.feed_override_percent, 80);
+  EXPECT_TRUE(options.run.watch);
+  EXPECT_TRUE(options.plan.start_mm.empty()) << "where it stands";
+  const Parsed other = parse({"run", "part.ngc", "--on", "mill", "--server", "localhost:1", "--machine", "router"});
+  EXPECT_EQ(other.options.run.profile, "router");
+  const Parsed planned = parse({"run", "--plan", "plans/1", "--on", "mill", "--server", "localhost:1"});
+  EXPECT_EQ(planned.options.run.plan, "plans/1");
+}
+
+TEST(CommandLine, RunsAreOperatedByNameOrMachine) {
+  const std::vector<std::pair<const char*, Command>> commands = {
+      {"hold", Command::kHold}, {"resume", Command::kResume}, {"abort", Command::kAbort}, {"watch", Command::kWatch}};
+  for (const auto& [name, command] : commands) {
+    const auto [options, message] = parse({name, "machines/mill", "--server", "localhost:1", "--json"});
+    ASSERT_FALSE(message.has_value()) << message->text;
+    EXPECT_EQ(options.command, command);
+    EXPECT_EQ(options.run.run, "machines/mill");
+    EXPECT_TRUE(options.json);
+  }
+  const auto [options, message] = parse({"override", "mill", "50", "--take-over", "--server", "localhost:1"});
+  ASSERT_FALSE(message.has_value()) << message->text;
+  EXPECT_EQ(options.command, Command::kOverride);
+  EXPECT_EQ(options.run.feed_override_percent, 50);
+  EXPECT_TRUE(options.run.take_over);
+}
+
 TEST(CommandLine, WrongOnesAreRefused) {
   for (const std::vector<const char*>& arguments :
        std::vector<std::vector<const char*>>{{},
@@ -139,6 +173,13 @@ TEST(CommandLine, WrongOnesAreRefused) {
                                              {"plan", "part.ngc", "--strategy", "overlapping"},
                                              {"plan", "part.ngc", "--nonsense"},
                                              {"stream", "part.ngc"},
+                                             {"machines"},
+                                             {"hold", "mill"},
+                                             {"hold", "--server", "x:1"},
+                                             {"override", "mill", "--server", "x:1"},
+                                             {"run", "--on", "mill", "--server", "x:1"},
+                                             {"run", "part.ngc", "--server", "x:1"},
+                                             {"run", "a.ngc", "--plan", "b", "--on", "mill", "--server", "x:1"},
                                              {"stream", "part.ngc", "-o", "x.csv", "--channels", "colour"}}) {
     const auto [options, message] = parse(arguments);
     ASSERT_TRUE(message.has_value());
@@ -148,8 +189,14 @@ TEST(CommandLine, WrongOnesAreRefused) {
 }
 
 TEST(CommandLine, HelpFitsEightyColumns) {
-  for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
-           {"--help"}, {"plan", "--help"}, {"stream", "--help"}, {"corners", "--help"}, {"plot", "--help"}}) {
+  for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{{"--help"},
+                                                                                         {"plan", "--help"},
+                                                                                         {"stream", "--help"},
+                                                                                         {"corners", "--help"},
+                                                                                         {"plot", "--help"},
+                                                                                         {"run", "--help"},
+                                                                                         {"override", "--help"},
+                                                                                         {"watch", "--help"}}) {
     const auto [options, message] = parse(arguments);
     ASSERT_TRUE(message.has_value());
     EXPECT_FALSE(message->is_error);

@@ -1,0 +1,18 @@
+// How a thread kept its clock.
+#pragma once
+
+#include <cstdint>
+
+#include "client/gateway/lateness.h"
+
+namespace kcs::gateway {
+
+struct ClockFigures {
+  bool fifo = false;             // the playing thread ran in real time
+  bool memory_locked = false;    // its memory stayed in RAM
+  Lateness lateness;             // of the ticks
+  std::uint64_t late_ticks = 0;  // that began more than one period late
+  double out_of_step_us = 0;     // how far the ticks were from the drives' own clock at most
+};
+
+}  // namespace kcs::gateway
