@@ -40,7 +40,7 @@ AttachedMachine find_attached(Machines& machines, const std::string& name) {
 
 // The name of the run that the command line means.
 std::string find_run(Machines& machines, const std::string& meant) {
-  const std::string name = full_name(meant);
+  std::string name = full_name(meant);
   if (name.find(kRuns) != std::string::npos) return name;
   const AttachedMachine machine = find_attached(machines, name);
   if (machine.run.empty()) throw client::Error("FAILED_PRECONDITION", name + " is on no run");

@@ -164,6 +164,12 @@ void Machine::attach(const MachineReport& first) {
   changed_.notify_all();
 }
 
+void Machine::drop_run() {
+  const std::lock_guard lock(mutex_);
+  orders_.emplace_back(StopOrder{.abort = true});
+  changed_.notify_all();
+}
+
 void Machine::start_feed() {
   started_ = false;
   orders_.clear();

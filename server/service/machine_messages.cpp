@@ -256,7 +256,9 @@ v1::Run encode_run(const runs::Run& run, const Machines& machines) {
   message.set_buffered_s(run.buffered);
   message.set_reason(run.reason);
   if (const auto machine = machines.try_find(run.name.substr(0, run.name.find("/runs/")))) {
-    message.set_machine_state(encode_state(machine->last_report().state));
+    const runs::MachineReport report = machine->last_report();
+    message.set_machine_state(encode_state(report.state));
+    message.set_starvations(report.starvations);
     encode_position(run.position, machine->profile().limits.axes, *message.mutable_position_mm());
   }
   return message;

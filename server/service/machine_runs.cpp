@@ -74,7 +74,7 @@ void MachineRuns::watch(const Caller& caller, const std::string& name,
 
 void MachineRuns::take_up(const Caller& caller, runs::Machine& machine, const std::string& name) {
   const auto record = archive_.find_run(name);
-  if (!record || record->state != store::RunRecordState::kOpen) throw NoSuchRun(name);
+  if (!record || record->state != store::RunRecordState::kOpen) return machine.drop_run();
   Caller of_run = caller;
   of_run.identity = {.owner = name, .roles = {}};  // to which the plan belongs as well
   machine.begin(decode_record(*record), plans_.load(of_run, record->plan));

@@ -168,6 +168,16 @@ TEST_F(MachineRunsTest, GoOnWithoutAStopWhenTheConnectionIsSoonBack) {
   expect_at_end();
 }
 
+// A gateway that comes with a run of which nobody knows would be turned away for ever.
+TEST_F(MachineRunsTest, ThatNobodyKnowsAreDroppedByTheirMachines) {
+  machine_.report.mutable_run()->set_run("machines/mill/runs/77");
+  machine_.report.set_state(v1::MACHINE_STATE_HELD);
+  TestGateway gateway(machine_, server_->channel());
+  EXPECT_FALSE(gateway.play()) << "it is told to stop";
+  run_ = "machines/mill/runs/77";
+  EXPECT_EQ(get().status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
 TEST_F(MachineRunsTest, TakeTheirPaceFromTheOverride) {
   const std::string plan = make_plan();
   TestGateway gateway(machine_, server_->channel());

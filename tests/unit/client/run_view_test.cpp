@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -32,11 +31,14 @@ Run running() {
           .machine_state = MachineState::kRunning};
 }
 
-// Without what colours it.
+// Without the control sequences that colour it.
 std::vector<std::string> plain(const Run& run) {
-  static const std::regex colours("\x1b\\[[0-9;]*m");
   std::vector<std::string> lines = run_view(run, 0.25);
-  for (std::string& line : lines) line = std::regex_replace(line, colours, "");
+  for (std::string& line : lines) {
+    for (std::size_t begin; (begin = line.find('\x1b')) != std::string::npos;) {
+      line.erase(begin, line.find('m', begin) - begin + 1);
+    }
+  }
   return lines;
 }
 
