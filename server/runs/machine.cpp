@@ -160,7 +160,11 @@ void Machine::begin(Run run, PlanPointer plan) {
 void Machine::attach(const MachineReport& first) {
   const std::lock_guard lock(mutex_);
   report_ = first;
-  if (run_ && !is_over(run_->state)) start_feed();
+  if (run_ && !is_over(run_->state)) {
+    start_feed();
+  } else if (run_ && first.run == run_->name) {
+    orders_.emplace_back(StopOrder{.abort = true});  // it does not know yet that the run is over
+  }
   changed_.notify_all();
 }
 
@@ -189,6 +193,11 @@ void Machine::start_feed() {
     ++resumed_branch_;
   }
   started_ = true;
+  // What it was told before may not have come to it.
+  if (run_->hold_asked || run_->abort_asked) {
+    feed_->pause();
+    orders_.emplace_back(StopOrder{.abort = run_->abort_asked});
+  }
   follow(report_);
 }
 
@@ -196,6 +205,7 @@ Run Machine::hold(const std::string& name) {
   const std::lock_guard lock(mutex_);
   Run& run = require_open(name);
   if (run.state == RunState::kHeld) return run;
+  run.hold_asked = true;
   orders_.emplace_back(StopOrder{});
   feed_->pause();
   if (run.state == RunState::kWaiting) run.state = RunState::kHeld;  // before it began
@@ -213,6 +223,7 @@ Run Machine::resume(const std::string& name) {
     feed_->go_on_from({.ends = {BatchEnd{}}});
   }
   run.state = RunState::kWaiting;
+  run.hold_asked = false;
   run.reason.clear();
   orders_.emplace_back(ResumeOrder{name, resumed_branch_});
   return changed();
@@ -240,6 +251,11 @@ Run Machine::control(const std::string& name, const std::string& controller) {
   const std::lock_guard lock(mutex_);
   require_open(name).controller = controller;
   return changed();
+}
+
+bool Machine::is_on(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return run_ && run_->name == name;
 }
 
 std::optional<Run> Machine::run() const {

@@ -88,6 +88,8 @@ class Machine {
   Run set_rate(const std::string& run, double rate);
   Run control(const std::string& run, const std::string& controller);
 
+  // Whether it is on this run, or was on it last.
+  bool is_on(const std::string& run) const;
   // The run that it is on or was on last.
   std::optional<Run> run() const;
   MachineReport last_report() const;

@@ -33,6 +33,7 @@ struct Run {
   double feed = 0;                                   // along the path, mm/s
   double buffered = 0;                               // motion that the machine holds, s
   std::string reason;                                // why it stopped, if nobody asked it to
+  bool hold_asked = false;                           // it is to come to rest, or rests, until it is resumed
   bool abort_asked = false;
 
   bool operator==(const Run&) const = default;

@@ -24,6 +24,8 @@ runs::Run MachineRuns::begin(const Caller& caller, const std::string& machine, c
   const Machines::MachinePointer attached = machines_.find(machine);
   const jobs::PlanPointer loaded = plans_.load(caller, plan);
   attached->require_ready_for(*loaded);
+  // It stands without a run: what the store knows of one never came to it.
+  if (const auto lost = archive_.open_run(machine)) close(*lost, store::RunRecordState::kFailed);
   const runs::Run run = decode_record(
       archive_.add_run({.machine = machine, .plan = plan, .controller = controller_of(caller), .feed_override = rate}));
   attached->begin(run, loaded);
@@ -44,7 +46,21 @@ runs::Run MachineRuns::get(const std::string& name) {
 
 runs::Run MachineRuns::hold(const std::string& run) { return noted(machines_.machine_of(run)->hold(run)); }
 
-runs::Run MachineRuns::abort(const std::string& run) { return noted(machines_.machine_of(run)->abort(run)); }
+runs::Run MachineRuns::abort(const std::string& name) {
+  const Machines::MachinePointer machine = machines_.machine_of(name);
+  if (machine->is_on(name)) return noted(machine->abort(name));
+  const auto record = archive_.find_run(name);
+  if (!record) throw NoSuchRun(name);
+  if (record->state != store::RunRecordState::kOpen) throw runs::NotNow(name + " is over");
+  return close(*record, store::RunRecordState::kAborted);
+}
+
+runs::Run MachineRuns::close(store::RunRecord record, store::RunRecordState state) {
+  record.state = state;
+  record.reason = "its machine does not know of it";
+  archive_.update_run(record);
+  return decode_record(record);
+}
 
 runs::Run MachineRuns::resume(const Caller& caller, const std::string& run, bool take_over) {
   return noted(require_control(caller, run, take_over)->resume(run));

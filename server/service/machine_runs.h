@@ -32,7 +32,8 @@ class MachineRuns {
   // Hands what changes to `send`, until the run is over.
   void watch(const Caller& caller, const std::string& run, const std::function<void(const runs::Run&)>& send);
 
-  // A machine that has just been attached says that it is on a run: gives it the rest, or tells it that the run is over.
+  // A machine that has just been attached says that it is on a run: gives it the rest, or tells it that the run is
+  // over.
   void take_up(const Caller& caller, runs::Machine& machine, const std::string& run);
   // Takes note of how a machine's run goes, for the store. seen: as it was noted last.
   void note(const runs::Machine& machine, std::optional<runs::Run>& seen);
@@ -40,6 +41,8 @@ class MachineRuns {
  private:
   // The machine that is on the run, if the caller may control it.
   Machines::MachinePointer require_control(const Caller& caller, const std::string& run, bool take_over);
+  // A run that its machine, which is attached, is not on.
+  runs::Run close(store::RunRecord record, store::RunRecordState state);
   runs::Run noted(const runs::Run& run);
 
   Machines& machines_;

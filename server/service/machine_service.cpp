@@ -73,12 +73,13 @@ MachineService::MachineService(Machines& machines, MachineRuns& runs, const Caps
     : machines_(machines),
       runs_(runs),
       calls_(calls),
-      attached_({"machines", 2 * caps.machines}, {"machines", 2 * caps.machines}),  // some wait for their own places
+      // Each machine, and those that attach anew before their old call has ended.
+      attaching_({"machines", 2 * caps.machines}, {"machines", 2 * caps.machines}),
       watching_({"streams", caps.streams}, {"client_streams", caps.client_streams}) {}
 
 grpc::Status MachineService::AttachMachine(grpc::ServerContext* context, AttachStream* stream) {
   return calls_.answer("AttachMachine", *context, [&](CallRecord& call, const Caller& caller) -> grpc::Status {
-    const Gate::Pass pass(attached_, caller.client);
+    const Gate::Pass pass(attaching_, caller.client);
     const v1::MachineHello hello = read_message(*stream, "hello").hello();
     const runs::MachineProfile profile = decode_hello(hello);
     call.note("machine", profile.name);

@@ -42,7 +42,7 @@ class MachineService final : public v1::MachineService::Service {
   Machines& machines_;
   MachineRuns& runs_;
   Calls& calls_;
-  Gate attached_, watching_;
+  Gate attaching_, watching_;
 };
 
 }  // namespace kcs::service

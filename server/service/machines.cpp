@@ -1,7 +1,10 @@
 #include "server/service/machines.h"
 
+#include <algorithm>
 #include <chrono>
 
+#include "server/jobs/cap_exceeded.h"
+#include "server/service/gate.h"
 #include "server/service/status.h"
 
 namespace kcs::service {
@@ -32,6 +35,9 @@ Machines::Attachment::Attachment(Machines& machines, const runs::MachineProfile&
                           " is attached by another gateway: stop that one, or give this machine a name "
                           "of its own");
   }
+  if (machines_.attached() >= machines_.most_) {
+    throw jobs::CapExceeded("machines", machines_.most_, "detach one, or attach to another server", kGateRetry);
+  }
   place->attached = true;
   place->superseded = false;
   place->instance = instance;
@@ -52,6 +58,11 @@ Machines::Attachment::~Attachment() {
 bool Machines::Attachment::superseded() const {
   const std::lock_guard lock(machines_.mutex_);
   return machines_.places_.at(machine_->profile().name).superseded;
+}
+
+std::uint64_t Machines::attached() const {
+  return static_cast<std::uint64_t>(
+      std::count_if(places_.begin(), places_.end(), [](const auto& place) { return place.second.attached; }));
 }
 
 Machines::MachinePointer Machines::try_find(const std::string& name) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -17,11 +18,14 @@ class Machines {
  public:
   using MachinePointer = std::shared_ptr<runs::Machine>;
 
+  // most: caps.machines.
+  explicit Machines(std::uint64_t most) : most_(most) {}
+
   // A machine that is attached, for as long as this lives.
   class Attachment {
    public:
     // instance: of the gateway's process. If the machine is attached by the same one already, that attachment is
-    // superseded, and ends first. Throws AlreadyAttached.
+    // superseded, and ends first. Throws AlreadyAttached, jobs::CapExceeded.
     Attachment(Machines& machines, const runs::MachineProfile& profile, const std::string& instance,
                const runs::MachineReport& first);
     ~Attachment();
@@ -53,6 +57,9 @@ class Machines {
     std::string instance;
   };
 
+  std::uint64_t attached() const;
+
+  const std::uint64_t most_;
   mutable std::mutex mutex_;
   std::condition_variable detached_;
   std::map<std::string, Place> places_;

@@ -45,7 +45,7 @@ store::RunRecord encode_record(const runs::Run& run) {
           .plan = run.plan,
           .controller = run.controller,
           .state = encode_state(run.state),
-          .held = run.state == runs::RunState::kHeld,
+          .held = run.hold_asked || run.state == runs::RunState::kHeld,
           .feed_override = run.rate,
           .plan_time = run.plan_time,
           .reason = run.reason,
@@ -60,7 +60,8 @@ runs::Run decode_record(const store::RunRecord& record) {
           .rate = record.feed_override,
           .create_time = record.create_time,
           .plan_time = record.plan_time,
-          .reason = record.reason};
+          .reason = record.reason,
+          .hold_asked = record.held};
 }
 
 RunLedger::RunLedger(Archive& archive)

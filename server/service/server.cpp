@@ -98,6 +98,7 @@ struct Server::Parts {
         access(options.security),
         calls(access, observation),
         service(plans, caps, calls),
+        machines(caps.machines),
         machine_runs(machines, plans, archive),
         machine_service(machines, machine_runs, caps, calls),
         credentials(make_credentials(options.security)) {

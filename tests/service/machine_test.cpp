@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "server/service/server.h"
+#include "server/store/store.h"
 #include "tests/files/temporary_folder.h"
 #include "tests/service/test_gateway.h"
 #include "tests/service/test_server.h"
@@ -165,6 +166,42 @@ TEST_F(MachineRunsTest, GoOnWithoutAStopWhenTheConnectionIsSoonBack) {
   while (gateway->play()) {
   }
   EXPECT_EQ(machine_.report.run().branch(), 0) << "it stopped";
+  expect_at_end();
+}
+
+// The order to stop may be lost with the connection: what was acknowledged holds all the same.
+TEST_F(MachineRunsTest, HoldEvenIfTheConnectionBreaksBeforeTheyAreTold) {
+  const std::string plan = make_plan();
+  auto gateway = std::make_unique<TestGateway>(machine_, server_->channel());
+  begin(plan);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(gateway->play());
+  gateway->deafen();
+  ASSERT_TRUE(hold().status.ok());
+  gateway.reset();
+  gateway = std::make_unique<TestGateway>(machine_, server_->channel());
+  while (gateway->play()) {
+  }
+  expect_state(v1::RUN_STATE_HELD);
+  EXPECT_LT(machine_.played.size(), 500) << "it went on with what it held, and no further";
+}
+
+// As when a server dies between writing down a run and telling the machine.
+TEST_F(MachineRunsTest, ThatNeverCameToTheirMachineAreNoObstacle) {
+  const kcs::test::TemporaryFolder folder;
+  const ServerOptions options{.store = {.database = "sqlite:" + (folder.path() / "plans.db").string()}};
+  start(options);
+  const std::string plan = make_plan();
+  server_.reset();
+  store::Store(options.store).add_run({.machine = "machines/mill", .plan = plan, .controller = ""});
+  start(options);
+  TestGateway gateway(machine_, server_->channel());
+  Answer<v1::Run> aborted;
+  ASSERT_TRUE(eventually([&] { return (aborted = abort()).status.error_code() != grpc::StatusCode::NOT_FOUND; }));
+  EXPECT_EQ(aborted.message.state(), v1::RUN_STATE_ABORTED) << aborted.status.error_message();
+  begin(plan);
+  EXPECT_EQ(run_, "machines/mill/runs/2");
+  while (gateway.play()) {
+  }
   expect_at_end();
 }
 

@@ -50,6 +50,11 @@ TestGateway::~TestGateway() {
   if (!finished_) stream_->Finish();
 }
 
+void TestGateway::deafen() {
+  const std::lock_guard lock(mutex_);
+  deaf_ = true;
+}
+
 grpc::Status TestGateway::finish() {
   std::unique_lock lock(mutex_);
   came_.wait_for(lock, kcs::test::kDeadline, [this] { return closed_; });
@@ -85,7 +90,7 @@ void TestGateway::take(const v1::AttachMachineResponse& response) {
     EXPECT_EQ(batch.begin().SerializeAsString(), end.SerializeAsString());
     machine_.held.push_back(batch);
   } else if (response.has_command()) {
-    stop_asked_ = true;
+    stop_asked_ = !deaf_;
   }
 }
 

@@ -43,6 +43,8 @@ class TestGateway {
   // Plays one batch, or its tail if there is no next one or a stop was asked for; waits for it first. False at the end
   // of the path, and when it stands.
   bool play();
+  // From now on the server's commands are lost.
+  void deafen();
   // The end of the connection, as the server gives it.
   grpc::Status finish();
 
@@ -60,7 +62,7 @@ class TestGateway {
   std::unique_ptr<grpc::ClientReaderWriter<v1::AttachMachineRequest, v1::AttachMachineResponse>> stream_;
   std::mutex mutex_;
   std::condition_variable came_;
-  bool stop_asked_ = false, closed_ = false, finished_ = false;
+  bool stop_asked_ = false, deaf_ = false, closed_ = false, finished_ = false;
   std::thread reader_;
 };
 
