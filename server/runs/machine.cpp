@@ -253,6 +253,11 @@ Run Machine::control(const std::string& name, const std::string& controller) {
   return changed();
 }
 
+bool Machine::has_open_run() const {
+  const std::lock_guard lock(mutex_);
+  return run_ && !is_over(run_->state);
+}
+
 bool Machine::is_on(const std::string& name) const {
   const std::lock_guard lock(mutex_);
   return run_ && run_->name == name;
@@ -266,12 +271,6 @@ std::optional<Run> Machine::run() const {
 MachineReport Machine::last_report() const {
   const std::lock_guard lock(mutex_);
   return report_;
-}
-
-std::optional<Run> Machine::wait_for_change(const Run& seen, std::chrono::milliseconds patience) const {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, patience, [&] { return !run_ || *run_ != seen; });
-  return run_;
 }
 
 Run& Machine::require_open(const std::string& name) {

@@ -88,13 +88,12 @@ class Machine {
   Run set_rate(const std::string& run, double rate);
   Run control(const std::string& run, const std::string& controller);
 
+  bool has_open_run() const;
   // Whether it is on this run, or was on it last.
   bool is_on(const std::string& run) const;
   // The run that it is on or was on last.
   std::optional<Run> run() const;
   MachineReport last_report() const;
-  // Waits until it is not as `seen` any more, up to `patience`.
-  std::optional<Run> wait_for_change(const Run& seen, std::chrono::milliseconds patience) const;
 
  private:
   Run& require_open(const std::string& run);
@@ -106,7 +105,7 @@ class Machine {
 
   const MachineProfile profile_;
   mutable std::mutex mutex_;
-  mutable std::condition_variable changed_;
+  std::condition_variable changed_;
   MachineReport report_;
   std::optional<Run> run_;
   PlanPointer plan_;             // of the run, while it is open

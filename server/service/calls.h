@@ -23,6 +23,7 @@ class Calls {
 
   // Refuses every call from now on; those that run go on.
   void close() { closed_ = true; }
+  bool closed() const { return closed_; }
   // Ends the calls that run, with UNAVAILABLE: those that wait, and streams when what they are sending is taken.
   void end() { end_.request_stop(); }
   // Asks to stop when the running calls are to end.

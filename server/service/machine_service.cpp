@@ -1,5 +1,6 @@
 #include "server/service/machine_service.h"
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -15,7 +16,11 @@ namespace {
 
 using AttachStream = grpc::ServerReaderWriter<v1::AttachMachineResponse, v1::AttachMachineRequest>;
 
-constexpr std::chrono::milliseconds kOrderLook{20};
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kOrderLook{20}, kLook{2};
+// Gateways without a run report five times a second.
+constexpr std::chrono::milliseconds kNextReport{500};
 constexpr double kPercent = 100;
 
 // Takes a gateway's reports in a thread of its own.
@@ -23,7 +28,12 @@ class Reports {
  public:
   Reports(AttachStream& stream, grpc::ServerContext& context, MachineRuns& runs, runs::Machine& machine)
       : context_(context), thread_([this, &stream, &runs, &machine] { read(stream, runs, machine); }) {}
-  ~Reports() { context_.TryCancel(); }  // or the thread would read on
+  // The next report ends the thread. If none comes, only breaking the call does, and its status is lost.
+  ~Reports() {
+    ending_ = true;
+    for (const auto end = Clock::now() + kNextReport; !over_ && Clock::now() < end;) std::this_thread::sleep_for(kLook);
+    if (!over_) context_.TryCancel();
+  }
   Reports(const Reports&) = delete;
   Reports& operator=(const Reports&) = delete;
 
@@ -38,7 +48,7 @@ class Reports {
     try {
       std::optional<runs::Run> noted;
       v1::AttachMachineRequest message;
-      while (stream.Read(&message)) {
+      while (stream.Read(&message) && !ending_) {
         machine.report(decode_report(message.report(), machine.profile().limits.axes));
         runs.note(machine, noted);
       }
@@ -50,7 +60,7 @@ class Reports {
 
   grpc::ServerContext& context_;
   std::exception_ptr fault_;  // before over_
-  std::atomic<bool> over_ = false;
+  std::atomic<bool> over_ = false, ending_ = false;
   std::jthread thread_;  // last: it uses all the others
 };
 
@@ -93,9 +103,11 @@ grpc::Status MachineService::AttachMachine(grpc::ServerContext* context, AttachS
     Reports reports(*stream, *context, runs_, machine);
     while (!reports.over() && !attachment.superseded()) {
       caller.require_wanted();
+      if (calls_.closed() && !machine.has_open_run()) throw Stopping();  // it can attach elsewhere at once
       const auto order = machine.next_order(kOrderLook);
       if (order && !stream->Write(encode_order(*order, axes))) break;
     }
+    if (attachment.superseded()) context->TryCancel();  // nobody listens any more
     reports.rethrow();
     return grpc::Status::OK;
   });

@@ -13,11 +13,6 @@ namespace {
 // For a superseded attachment to end.
 constexpr std::chrono::seconds kFarewell{1};
 
-bool has_open_run(const runs::Machine& machine) {
-  const auto run = machine.run();
-  return run && !is_over(run->state);
-}
-
 }  // namespace
 
 Machines::Attachment::Attachment(Machines& machines, const runs::MachineProfile& profile, const std::string& instance,
@@ -51,7 +46,7 @@ Machines::Attachment::~Attachment() {
   const std::lock_guard lock(machines_.mutex_);
   const auto place = machines_.places_.find(machine_->profile().name);
   place->second.attached = false;
-  if (!has_open_run(*machine_)) machines_.places_.erase(place);
+  if (!machine_->has_open_run()) machines_.places_.erase(place);
   machines_.detached_.notify_all();
 }
 

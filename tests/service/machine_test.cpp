@@ -298,6 +298,15 @@ TEST_F(MachineRunsTest, AreRefusedWithTheReason) {
   EXPECT_TRUE(refuses_field(override_feed(-1).status, "feed_override_percent"));
 }
 
+TEST_F(MachineRunsTest, AreAllThatAStoppingServerWaitsForOfAMachine) {
+  TestGateway gateway(machine_, server_->channel());
+  EXPECT_TRUE(
+      eventually([&] { return run("plans/none").status.error_message().find("does not keep") != std::string::npos; }));
+  std::thread stopping([&] { server_->server().stop(kDeadline); });
+  EXPECT_EQ(gateway.finish().error_code(), grpc::StatusCode::UNAVAILABLE) << "it would have waited for the whole grace";
+  stopping.join();
+}
+
 TEST_F(MachineRunsTest, AreWatchedToTheirEnd) {
   const std::string plan = make_plan();
   TestGateway gateway(machine_, server_->channel());

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kPeriod = 0.001;
 constexpr std::size_t kWindow = 250;  // setpoints
-constexpr std::chrono::milliseconds kStarvation{500};
+constexpr std::chrono::milliseconds kStarvation{500}, kReport{20};
 
 void fill(google::protobuf::RepeatedField<double>& numbers, const motion::Vector& vector, std::size_t axes) {
   numbers.Assign(vector.begin(), vector.begin() + axes);
@@ -57,7 +57,11 @@ void TestGateway::deafen() {
 
 grpc::Status TestGateway::finish() {
   std::unique_lock lock(mutex_);
-  came_.wait_for(lock, kcs::test::kDeadline, [this] { return closed_; });
+  for (auto end = std::chrono::steady_clock::now() + kcs::test::kDeadline;
+       !closed_ && std::chrono::steady_clock::now() < end;) {
+    send_report();
+    came_.wait_for(lock, kReport, [this] { return closed_; });
+  }
   lock.unlock();
   finished_ = closed_;
   return closed_ ? stream_->Finish() : grpc::Status(grpc::StatusCode::DEADLINE_EXCEEDED, "it goes on");
