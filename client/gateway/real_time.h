@@ -24,4 +24,8 @@ class RealTime {
   bool memory_locked_;
 };
 
+// The same for a thread that brings motion to the one that plays: before all ordinary ones, after the one that plays
+// and the kernel's interrupts. Threads that it begins are like it. Without the right to it, it stays as it is.
+void feed_in_real_time();
+
 }  // namespace kcs::gateway

@@ -16,6 +16,7 @@
 #include "client/gateway/machine/player_memory.h"
 #include "client/gateway/machine/simulated_machine.h"
 #include "client/gateway/observer.h"
+#include "client/gateway/real_time.h"
 
 namespace kcs::gateway {
 namespace {
@@ -157,14 +158,19 @@ client::ExitCode attach(const Settings& settings, const std::optional<std::files
   MachineLink link(settings.server, make_hello(settings, memory->profile), feeder, log);
   log->info("begins machine={} driver={} period_s={}", settings.machine, simulated ? "simulated" : "hal",
             memory->profile.period_s);
+  // Whoever holds the feeder's lock runs in real time, so that a busy computer does not keep motion from the player.
   const std::jthread feeding([&feeder](const std::stop_token& stop) {
+    feed_in_real_time();
     while (!stop.stop_requested()) {
       feeder.step();
       std::this_thread::sleep_for(kFeedEvery);
     }
   });
   {
-    const std::jthread linking([&link](const std::stop_token& stop) { link.run(stop); });
+    const std::jthread linking([&link](const std::stop_token& stop) {
+      feed_in_real_time();
+      link.run(stop);
+    });
     if (!wait_for_end(end, *memory)) {
       throw client::FileError("the player ticks no more: is HAL still running? Start it, then the gateway again");
     }
