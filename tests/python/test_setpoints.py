@@ -1,0 +1,102 @@
+"""Setpoints as arrays."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kcs
+
+ALL = ("velocity", "acceleration", "jerk", "path_position", "segment")
+
+
+def test_they_start_and_end_at_rest_on_the_ends_of_the_path(circle: kcs.Plan) -> None:
+    setpoints = circle.setpoints(0.001, ["velocity"])
+    assert setpoints.position_mm.shape == (len(setpoints), 2)
+    assert setpoints.position_mm[0] == pytest.approx(circle.summary.start_mm)
+    assert setpoints.position_mm[-1] == pytest.approx(circle.summary.end_mm)
+    assert setpoints.velocity_mm_s[[0, -1]] == pytest.approx(0, abs=1e-9)
+    assert setpoints.time_s[-1] == circle.summary.cycle_time_s
+    assert np.diff(setpoints.time_s)[:-1] == pytest.approx(0.001)
+
+
+def test_they_keep_the_limits_and_fit_each_other(circle: kcs.Plan) -> None:
+    setpoints = circle.setpoints(1e-4, ALL)
+    machine = circle.machine
+    assert (abs(setpoints.velocity_mm_s) <= np.multiply(machine.velocity_mm_s, 1 + 1e-6)).all()
+    assert (abs(setpoints.acceleration_mm_s2) <= np.multiply(machine.acceleration_mm_s2, 1 + 1e-6)).all()
+    assert (abs(setpoints.jerk_mm_s3) <= np.multiply(machine.jerk_mm_s3, 1 + 1e-6)).all()
+    moved = np.diff(setpoints.position_mm, axis=0)
+    expected = (setpoints.velocity_mm_s[1:] + setpoints.velocity_mm_s[:-1]) / 2 * np.diff(setpoints.time_s)[:, None]
+    # Between two setpoints the velocity is nearly straight: not by more than jerk × period³ / 12.
+    assert moved == pytest.approx(expected, abs=2e-8)
+    assert (np.diff(setpoints.path_position_mm) >= 0).all()
+    assert setpoints.path_position_mm[-1] == pytest.approx(circle.summary.path_length_mm)
+    assert setpoints.segment[-1] == circle.summary.segment_count - 1
+
+
+def test_batches_are_the_same_in_pieces(circle: kcs.Plan) -> None:
+    whole = circle.setpoints(0.001, ALL)
+    batches = list(circle.setpoint_batches(0.001, ALL, batch_size=100))
+    assert [len(batch) for batch in batches[:-1]] == [100] * (len(batches) - 1)
+    assert [batch.first_index for batch in batches] == list(range(0, len(whole), 100))
+    for name in ("position_mm", "velocity_mm_s", "acceleration_mm_s2", "jerk_mm_s3", "path_position_mm", "segment"):
+        assert np.array_equal(np.concatenate([getattr(batch, name) for batch in batches]), getattr(whole, name))
+    assert np.array_equal(np.concatenate([batch.time_s for batch in batches]), whole.time_s)
+
+
+def test_a_part_of_them_has_its_place_in_the_whole(circle: kcs.Plan) -> None:
+    whole = circle.setpoints(0.001)
+    part = circle.setpoints(0.001, first=20, last=29)
+    assert part.first_index == 20
+    assert np.array_equal(part.position_mm, whole.position_mm[20:30])
+    assert np.array_equal(part.time_s, whole.time_s[20:30])
+
+
+def test_an_axis_lies_in_one_piece(circle: kcs.Plan) -> None:
+    assert circle.setpoints(0.001).position_mm[:, 0].flags.c_contiguous
+
+
+def test_a_channel_that_was_not_asked_for_says_so(circle: kcs.Plan) -> None:
+    with pytest.raises(AttributeError, match=r"channels=\['jerk'\]"):
+        circle.setpoints(0.001).jerk_mm_s3
+
+
+def test_an_unknown_channel_is_refused_with_those_that_there_are(circle: kcs.Plan) -> None:
+    with pytest.raises(ValueError, match="velocity, acceleration, jerk, path_position, segment"):
+        circle.setpoints(0.001, ["speed"])  # type: ignore[list-item]
+
+
+def test_a_period_out_of_range_is_refused_by_the_server(circle: kcs.Plan) -> None:
+    with pytest.raises(kcs.Error) as failure:
+        circle.setpoints(0)
+    assert failure.value.violations[0].field == "period_s"
+
+
+def test_a_broken_stream_goes_on_where_it_broke(circle: kcs.Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = circle.setpoints(0.001)
+    real = circle._client._messages
+    began_at = []
+
+    def breaks_after_two(method: Any, request: Any) -> Iterator[Any]:
+        began_at.append(request.first_index)
+        for count, message in enumerate(real(method, request)):
+            if count == 2 and len(began_at) < 3:
+                raise kcs.Error("UNAVAILABLE", "the link is gone")
+            yield message
+
+    monkeypatch.setattr(circle._client, "_messages", breaks_after_two)
+    batches = list(circle.setpoint_batches(0.001, batch_size=50))
+    assert began_at == [0, 100, 200]
+    assert np.array_equal(np.concatenate([batch.position_mm for batch in batches]), whole.position_mm)
+
+
+def test_a_stream_that_brings_nothing_more_is_given_up(circle: kcs.Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+    def is_gone(method: Any, request: Any) -> Iterator[Any]:
+        raise kcs.Error("UNAVAILABLE", "the link is gone")
+        yield
+
+    monkeypatch.setattr(circle._client, "_messages", is_gone)
+    with pytest.raises(kcs.Error, match="the link is gone"):
+        circle.setpoints(0.001)
