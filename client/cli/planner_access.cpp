@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "client/sdk/machine_profile.h"
+#include "client/sdk/server_link.h"
 #include "server/service/server.h"
 
 namespace kcs::cli {
@@ -29,7 +30,7 @@ PlannerAccess::PlannerAccess(const Options& options) {
     planner_ = std::make_unique<client::Planner>(options.server);
   } else {
     server_ = make_local_server();
-    planner_ = std::make_unique<client::Planner>(server_->in_process_channel());
+    planner_ = std::make_unique<client::Planner>(client::ServerLink(server_->in_process_channel()));
   }
 }
 

@@ -23,8 +23,8 @@ class Machines::Link {
  public:
   using Stub = v1::MachineService::Stub;
 
-  Link(std::shared_ptr<grpc::Channel> channel, Connection server)
-      : server_(std::move(channel), std::move(server)), stub_(v1::MachineService::NewStub(server_.channel())) {}
+  explicit Link(ServerLink server)
+      : server_(std::move(server)), stub_(v1::MachineService::NewStub(server_.channel())) {}
 
   // Asks what the server answers at once.
   template <typename Request, typename Response>
@@ -73,11 +73,9 @@ Request request_for(const std::string& run) {
 
 }  // namespace
 
-Machines::Machines(const Connection& connection)
-    : link_(std::make_unique<Link>(open_channel(connection, kPace), connection)) {}
+Machines::Machines(const Connection& connection) : Machines(ServerLink(open_channel(connection, kPace), connection)) {}
 
-Machines::Machines(std::shared_ptr<grpc::Channel> channel)
-    : link_(std::make_unique<Link>(std::move(channel), Connection{})) {}
+Machines::Machines(const ServerLink& server) : link_(std::make_unique<Link>(server)) {}
 
 Machines::Machines(Machines&&) noexcept = default;
 Machines& Machines::operator=(Machines&&) noexcept = default;

@@ -16,11 +16,9 @@
 #include "client/sdk/error.h"
 #include "client/sdk/run.h"
 
-namespace grpc {
-class Channel;
-}
-
 namespace kcs::client {
+
+class ServerLink;  // known to kcs alone, as it is made of gRPC
 
 // Runs are meant by their names. Calls may be made from several threads at once. Every call throws Error as those of
 // Planner do: "NOT_FOUND" for a run or machine that the server does not know, "FAILED_PRECONDITION", with the reason,
@@ -32,7 +30,7 @@ class Machines {
   explicit Machines(const Connection& connection);
 
   // A server behind a channel made elsewhere, for instance one inside this process.
-  explicit Machines(std::shared_ptr<grpc::Channel> channel);
+  explicit Machines(const ServerLink& server);
 
   Machines(Machines&&) noexcept;
   Machines& operator=(Machines&&) noexcept;

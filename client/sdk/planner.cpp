@@ -18,8 +18,8 @@ namespace kcs::client {
 
 class Planner::Link {
  public:
-  Link(std::shared_ptr<grpc::Channel> channel, Connection server)
-      : server_(std::move(channel), std::move(server)), stub_(v1::PlanningService::NewStub(server_.channel())) {}
+  explicit Link(ServerLink server)
+      : server_(std::move(server)), stub_(v1::PlanningService::NewStub(server_.channel())) {}
 
   // The stub, when the server can be reached; throws Error if it cannot.
   v1::PlanningService::Stub& stub(const std::stop_token& stop) {
@@ -69,10 +69,9 @@ class Planner::Link {
 Planner::Planner(const std::string& address, std::chrono::milliseconds patience)
     : Planner(Connection{.address = address, .patience = patience}) {}
 
-Planner::Planner(const Connection& connection) : link_(std::make_unique<Link>(open_channel(connection), connection)) {}
+Planner::Planner(const Connection& connection) : Planner(ServerLink(open_channel(connection), connection)) {}
 
-Planner::Planner(std::shared_ptr<grpc::Channel> channel)
-    : link_(std::make_unique<Link>(std::move(channel), Connection{})) {}
+Planner::Planner(const ServerLink& server) : link_(std::make_unique<Link>(server)) {}
 
 Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;

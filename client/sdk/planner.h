@@ -22,11 +22,9 @@
 #include "client/sdk/plan_list.h"
 #include "client/sdk/setpoint_stream.h"
 
-namespace grpc {
-class Channel;
-}
-
 namespace kcs::client {
+
+class ServerLink;  // known to kcs alone, as it is made of gRPC
 
 // Asks a server to plan tool paths, and for the setpoints and corners of its plans. Calls may be made from several
 // threads at once. Every call throws Error if the server refuses it or does not answer: "UNAVAILABLE" at the latest
@@ -45,7 +43,7 @@ class Planner {
   explicit Planner(const Connection& connection);
 
   // A server behind a channel made elsewhere, for instance one inside this process.
-  explicit Planner(std::shared_ptr<grpc::Channel> channel);
+  explicit Planner(const ServerLink& server);
 
   Planner(Planner&&) noexcept;
   Planner& operator=(Planner&&) noexcept;

@@ -1,4 +1,4 @@
-// The way to a server, as every kind of call needs it. Used inside the library alone.
+// The way to a server, as every kind of call needs it. Used inside kcs alone.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -17,7 +17,7 @@ namespace kcs::client {
 class ServerLink {
  public:
   // Without an address: the channel leads to a server inside the process, which is always there.
-  ServerLink(std::shared_ptr<grpc::Channel> channel, Connection server);
+  explicit ServerLink(std::shared_ptr<grpc::Channel> channel, Connection server = {});
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   const std::string& address() const { return server_.address; }
@@ -36,8 +36,8 @@ class ServerLink {
   bool changes_from(grpc_connectivity_state state) const;
   std::string reason() const;
 
-  const std::shared_ptr<grpc::Channel> channel_;
-  const Connection server_;
+  std::shared_ptr<grpc::Channel> channel_;
+  Connection server_;
 };
 
 }  // namespace kcs::client

@@ -47,11 +47,4 @@ void Planner::take(const motion::Phase& phase) {
 
 void Planner::take(const Corner& corner) { plan_.corners.append(corner); }
 
-Plan plan(const Toolpath& path, const PlanOptions& options) {
-  Planner planner(path, options);
-  while (planner.go_on()) {
-  }
-  return planner.take_plan();
-}
-
 }  // namespace kcs::planning

@@ -1,4 +1,4 @@
-// The planner: tool path and limits in, verified trajectory out.
+// Plans a whole path bit by bit.
 #pragma once
 
 #include <atomic>
@@ -46,11 +46,5 @@ class Planner final : PlanReceiver {
   std::size_t next_ = 0;  // segment
   std::atomic<std::size_t> segments_planned_ = 0;
 };
-
-// Plans `path`. A pure function: the same input gives the same bytes, on any thread.
-// Throws InvalidInput if a number is not finite or outside its range (options.h), naming the segment, or if the path
-// has no segment; Stopped if options.stop asks for it; std::logic_error if the finished trajectory does not pass
-// verification (a defect of kcs: the plan is not served).
-Plan plan(const Toolpath& path, const PlanOptions& options);
 
 }  // namespace kcs::planning

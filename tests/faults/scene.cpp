@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "server/gcode/reader.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 
 namespace kcs::faults {
 namespace {

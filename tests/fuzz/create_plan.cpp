@@ -14,7 +14,7 @@
 #include "server/jobs/cap_exceeded.h"
 #include "server/motion/sampler.h"
 #include "server/planning/invalid_input.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "server/service/live_call.h"
 #include "server/service/request_code.h"
 #include "server/service/upload.h"

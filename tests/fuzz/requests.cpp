@@ -12,7 +12,7 @@
 
 #include "server/jobs/cap_exceeded.h"
 #include "server/planning/invalid_input.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "server/service/live_call.h"
 #include "server/service/pace.h"
 #include "server/service/plan_records.h"

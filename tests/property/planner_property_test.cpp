@@ -14,7 +14,7 @@
 
 #include "server/planning/invalid_input.h"
 #include "server/planning/leg.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "tests/property/dense_case.h"
 #include "tests/property/judge.h"
 #include "tests/property/long_case.h"

@@ -9,7 +9,7 @@
 #include "server/motion/place_sampler.h"
 #include "server/motion/sampler.h"
 #include "server/planning/live_planner.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "tests/property/dense_case.h"
 #include "tests/property/long_case.h"
 #include "tests/property/random_case.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "server/runs/batch_maker.h"
 #include "server/runs/paced_motion.h"
 #include "tests/motion/drives.h"

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "tests/bench/cycle_times/case.h"
 #include "tests/bench/cycle_times/motion_record.h"
 #include "tests/bench/program.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "server/motion/verifier.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "tests/bench/program.h"
 #include "tests/bench/speed/benchmarks.h"
 #include "tests/bench/speed/memory.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "tests/bench/program.h"
 #include "tests/bench/speed/benchmarks.h"
 #include "tests/bench/speed/paths.h"

@@ -2,7 +2,7 @@
 
 #include "client/sdk/planner.h"
 #include "server/motion/sampler.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "server/service/server.h"
 #include "tests/bench/program.h"
 #include "tests/bench/speed/benchmarks.h"

@@ -7,7 +7,7 @@
 
 #include "client/cli/gnuplot.h"
 #include "client/common/command_line.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "tests/bench/program.h"
 #include "tests/bench/stutter/dips.h"
 #include "tests/bench/stutter/picture.h"

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "tests/unit/planning/paths.h"
 
 namespace kcs::planning {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "server/planning/leg_queue.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 
 namespace kcs::planning {
 

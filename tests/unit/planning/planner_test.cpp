@@ -1,10 +1,10 @@
-#include "server/planning/planner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "server/planning/plan_path.h"
 #include "tests/unit/planning/paths.h"
 
 namespace kcs::planning {

@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "server/planning/plan_path.h"
 #include "server/planning/planner.h"
 #include "server/planning/stopped.h"
 

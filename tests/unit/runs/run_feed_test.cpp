@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 
 namespace kcs::runs {
 namespace {
