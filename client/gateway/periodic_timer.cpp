@@ -17,6 +17,8 @@ std::int64_t now() {
 
 }  // namespace
 
+double monotonic_s() { return static_cast<double>(now()) / static_cast<double>(kNanoseconds); }
+
 PeriodicTimer::PeriodicTimer(double period_s)
     : period_(period_s * static_cast<double>(kNanoseconds)), start_(now()), deadline_(start_) {}
 

@@ -5,6 +5,9 @@
 
 namespace kcs::gateway {
 
+// The monotonic clock, s.
+double monotonic_s();
+
 // Every deadline is a fixed instant, start + i × period and what it was shifted by, so that one late tick does not make
 // the next one late and the period does not drift. Nothing is skipped: a thread that is behind catches up tick by tick.
 class PeriodicTimer {

@@ -57,7 +57,7 @@ class Run {
     const PlayState state = player_.tick();
     if (state == PlayState::kStarved) return false;
     const Vector actual = table_.follow(player_.position_mm(), period_);
-    const Tick tick = {player_.position_mm(), actual, feed_.queue().size(), filling};
+    const Tick tick = {player_.position_mm(), actual, feed_.queue().size(), filling, monotonic_s()};
     if (!trace_.put(tick)) ++unmeasured_ticks_;
     return state == PlayState::kPlaying;
   }

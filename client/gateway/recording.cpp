@@ -12,7 +12,8 @@ namespace kcs::gateway {
 Recording::Recording(const std::filesystem::path& file, std::size_t axes, double period_s)
     : file_(file), out_(file), axes_(axes), period_(period_s) {
   if (!out_) throw std::system_error(errno, std::generic_category(), file.string() + " cannot be opened for writing");
-  const std::string_view names = axes == 2 ? "t,x,y,actual_x,actual_y\n" : "t,x,y,z,actual_x,actual_y,actual_z\n";
+  const std::string_view names =
+      axes == 2 ? "t,x,y,actual_x,actual_y,clock\n" : "t,x,y,z,actual_x,actual_y,actual_z,clock\n";
   out_ << names;
 }
 
@@ -24,7 +25,7 @@ void Recording::add(const Tick& tick) {
       fmt::format_to(std::back_inserter(row), ",{:.15g}", (*position)[static_cast<Eigen::Index>(axis)]);
     }
   }
-  row.push_back('\n');
+  fmt::format_to(std::back_inserter(row), ",{:.6f}\n", tick.clock_s);
   out_.write(row.data(), static_cast<std::streamsize>(row.size()));
   ++ticks_;
 }

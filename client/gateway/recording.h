@@ -10,8 +10,9 @@
 
 namespace kcs::gateway {
 
-// Writes one row a tick: "t,x,y,z,actual_x,actual_y,actual_z" (s, mm; machines with two axes have no z columns): the
-// commanded position that is due at that time, and what the encoders read then.
+// Writes one row a tick: "t,x,y,z,actual_x,actual_y,actual_z,clock" (s, mm; machines with two axes have no z columns):
+// the commanded position that is due at that time, what the encoders read then, and when it was given to the drives on
+// the computer's monotonic clock, by which it can be compared with what other programs did.
 class Recording {
  public:
   // Throws std::system_error if `file` cannot be written. An existing file is replaced.

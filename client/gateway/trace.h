@@ -13,6 +13,7 @@ struct Tick {
   Vector actual_mm = Vector::Zero();     // what their encoders read one period later, when it was due
   std::size_t buffered = 0;              // setpoints that were left on the queue
   bool filling = false;                  // more setpoints were to come from the server
+  double clock_s = 0;                    // when that was, on the monotonic clock
 };
 
 using Trace = OneWayQueue<Tick>;

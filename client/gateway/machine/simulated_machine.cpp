@@ -61,7 +61,7 @@ void SimulatedMachine::tick() {
   const Vector commanded(output_.command_mm[0], output_.command_mm[1], output_.command_mm[2]);
   const Vector actual = move_drives(commanded);
   std::copy(actual.begin(), actual.end(), input_.actual_mm);
-  if (!trace_.put({commanded, actual, 0, false})) ++untraced_ticks_;
+  if (!trace_.put({commanded, actual, 0, false, monotonic_s()})) ++untraced_ticks_;
 }
 
 Vector SimulatedMachine::move_drives(const Vector& commanded_mm) {

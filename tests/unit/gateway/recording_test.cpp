@@ -24,13 +24,13 @@ std::filesystem::path temporary_file(const std::string& name) {
 TEST(Recording, WritesCommandedAndActualPositionOfEachTick) {
   const auto file = temporary_file("three-axes.csv");
   Recording recording(file, 3, 0.0005);
-  recording.add({.commanded_mm = Vector(1, 2, 3), .actual_mm = Vector(1.0007125, -2, 0)});
-  recording.add({.commanded_mm = Vector(0.1, 0, 0), .actual_mm = Vector(0, 0, 1.0 / 3)});
+  recording.add({.commanded_mm = Vector(1, 2, 3), .actual_mm = Vector(1.0007125, -2, 0), .clock_s = 12.25});
+  recording.add({.commanded_mm = Vector(0.1, 0, 0), .actual_mm = Vector(0, 0, 1.0 / 3), .clock_s = 12.2505});
   recording.finish();
   EXPECT_EQ(contents(file),
-            "t,x,y,z,actual_x,actual_y,actual_z\n"
-            "0,1,2,3,1.0007125,-2,0\n"
-            "0.0005,0.1,0,0,0,0,0.333333333333333\n");
+            "t,x,y,z,actual_x,actual_y,actual_z,clock\n"
+            "0,1,2,3,1.0007125,-2,0,12.250000\n"
+            "0.0005,0.1,0,0,0,0,0.333333333333333,12.250500\n");
   std::filesystem::remove(file);
 }
 
@@ -39,7 +39,7 @@ TEST(Recording, MachinesWithTwoAxesHaveNoZ) {
   Recording recording(file, 2, 0.001);
   recording.add({.commanded_mm = Vector(1, 2, 0), .actual_mm = Vector(1, 2, 0)});
   recording.finish();
-  EXPECT_EQ(contents(file), "t,x,y,actual_x,actual_y\n0,1,2,1,2\n");
+  EXPECT_EQ(contents(file), "t,x,y,actual_x,actual_y,clock\n0,1,2,1,2,0.000000\n");
   std::filesystem::remove(file);
 }
 
