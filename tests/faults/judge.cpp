@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
+#include <optional>
+
+#include "tests/faults/follower.h"
 
 namespace kcs::faults {
 namespace {
@@ -15,114 +16,94 @@ namespace {
 using motion::Vector;
 
 constexpr double kMargin = 1e-6;   // of a limit, for rounding
-constexpr double kOnCurve = 1e-7;  // mm: recordings have 15 digits
-constexpr double kFastest = 3;     // times the planned pace: no override allows more
-constexpr int kHalvings = 60, kLooks = 16;
+constexpr double kOnCurve = 1e-7;  // mm
+constexpr double kSame = 1e-11;    // mm: recordings are rounded to 15 digits, or to 1e-12 mm
 
-// Follows the planned curve from command to command.
-class Follower {
+class Judge {
  public:
-  Follower(const planning::Plan& plan, double period) : plan_(plan), phase_(plan.trajectory.begin()), period_(period) {}
-
-  // How far the command is from the nearest place of what can come next, mm.
-  double distance(const Vector& command) {
-    const double latest = std::min(time_ + kFastest * period_, plan_.trajectory.duration());
-    double best = time_, least = (at(time_) - command).norm();
-    if (least <= kOnCurve / 10) return least;  // it stands
-    for (int i = 1; i <= kLooks; ++i) {
-      const double time = time_ + (latest - time_) * i / kLooks;
-      const double distance = (at(time) - command).norm();
-      if (distance < least) {
-        least = distance;
-        best = time;
-      }
-    }
-    const double step = (latest - time_) / kLooks;
-    double low = std::max(time_, best - step), high = std::min(latest, best + step);
-    for (int i = 0; i < kHalvings; ++i) {
-      const double third = (high - low) / 3;
-      ((at(low + third) - command).norm() < (at(high - third) - command).norm() ? high : low) =
-          (at(low + third) - command).norm() < (at(high - third) - command).norm() ? high - third : low + third;
-    }
-    time_ = (low + high) / 2;
-    return (at(time_) - command).norm();
+  Judge(const motion::AxisLimits& limits, double period) : limits_(limits), period_(period) {
+    before_.fill(Vector::Zero());
   }
 
-  double time() const { return time_; }
+  void begin(const Run& run) {
+    end_run();
+    run_ = &run;
+    follower_.emplace(run.plan, period_);
+  }
+
+  void take(const Command& command) {
+    const Vector& now = command.position;
+    if (!verdict_.places.empty()) {
+      look_at_limits(now);
+    } else {
+      before_.fill(now);
+    }
+    double distance = (now - before_[0]).norm();  // before the first run, where it stands
+    if (follower_) distance = follower_->follow(now);
+    verdict_.farthest = std::max(verdict_.farthest, distance);
+    if (distance > kOnCurve) note(fmt::format("{:.6f} mm off the planned curve", distance));
+    moves_ = now != before_[0];
+    verdict_.places.push_back({run_, follower_ ? follower_->time() : 0, follower_ && follower_->as_planned(), moves_});
+    before_ = {now, before_[0], before_[1]};
+  }
+
+  Verdict finish() {
+    end_run();
+    return std::move(verdict_);
+  }
 
  private:
-  Vector at(double time) {
-    if (time < phase_->start_time || time >= phase_->end_time()) phase_.seek(time);
-    return phase_->at(std::clamp(time - phase_->start_time, 0.0, phase_->duration)).position;
+  void end_run() {
+    if (moves_) note("it does not end at rest");
+    if (run_ && run_->complete && (before_[0] - run_->plan.trajectory.final_state().position).norm() > kSame) {
+      note("not at the end of the path");
+    }
   }
 
-  const planning::Plan& plan_;
-  motion::Trajectory::Iterator phase_;
-  double period_, time_ = 0;
+  void look_at_limits(const Vector& now) {
+    const auto& [one, two, three] = before_;
+    const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, now.cwiseAbs().maxCoeff());
+    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(limits_.axes); ++i) {
+      const std::array<std::pair<double, double>, 3> measured = {
+          {{now[i] - one[i], limits_.velocity[i] * period_},
+           {now[i] - 2 * one[i] + two[i], limits_.acceleration[i] * std::pow(period_, 2)},
+           {now[i] - 3 * one[i] + 3 * two[i] - three[i], limits_.jerk[i] * std::pow(period_, 3)}}};
+      for (std::size_t order = 0; order < measured.size(); ++order) {
+        const auto [difference, most] = measured[order];
+        const double share = std::max(0.0, std::abs(difference) - rounding) / most;
+        verdict_.largest_share = std::max(verdict_.largest_share, share);
+        if (share <= 1 + kMargin) continue;
+        constexpr std::array kNames = {"velocity", "acceleration", "jerk"};
+        note(fmt::format("{:.4f} of the limit of {} of axis {}", share, kNames[order], "XYZ"[i]));
+      }
+    }
+  }
+
+  void note(const std::string& what) {
+    if (!verdict_.fault.empty()) return;
+    verdict_.fault =
+        fmt::format("tick {}: {}; {} s of the plan", verdict_.places.size(), what, follower_ ? follower_->time() : 0);
+  }
+
+  motion::AxisLimits limits_;
+  double period_;
+  Verdict verdict_;
+  const Run* run_ = nullptr;
+  std::optional<Follower> follower_;
+  std::array<Vector, 3> before_;  // the latest first
+  bool moves_ = false;
 };
 
 }  // namespace
 
-Commands read_recording(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  const int axes = static_cast<int>(std::count(line.begin(), line.end(), ',')) / 2;
-  Commands commands;
-  while (std::getline(in, line)) {
-    std::istringstream row(line);
-    std::string cell;
-    std::getline(row, cell, ',');
-    Vector command = Vector::Zero();
-    for (int axis = 0; axis < axes && std::getline(row, cell, ','); ++axis) command[axis] = std::stod(cell);
-    commands.push_back(command);
+Verdict judge(const Commands& commands, const Runs& runs, const motion::AxisLimits& limits, double period) {
+  Judge judge(limits, period);
+  auto next = runs.begin();
+  for (const Command& command : commands) {
+    for (; next != runs.end() && next->begun <= command.time; ++next) judge.begin(*next);
+    judge.take(command);
   }
-  return commands;
-}
-
-Verdict judge(const Commands& commands, const planning::Plan& plan, const motion::AxisLimits& limits, double period,
-              bool complete) {
-  Verdict verdict;
-  Follower follower(plan, period);
-  std::array<Vector, 3> before;
-  before.fill(plan.start);
-  bool moved = false;
-  const auto note = [&verdict](std::size_t tick, const std::string& what) {
-    if (verdict.fault.empty()) verdict.fault = fmt::format("tick {}: {}", tick, what);
-  };
-  for (std::size_t tick = 0; tick < commands.size(); ++tick) {
-    const Vector& now = commands[tick];
-    const auto& [one, two, three] = before;
-    const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, now.cwiseAbs().maxCoeff());
-    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(limits.axes); ++i) {
-      const std::array<std::pair<double, double>, 3> measured = {
-          {{now[i] - one[i], limits.velocity[i] * period},
-           {now[i] - 2 * one[i] + two[i], limits.acceleration[i] * std::pow(period, 2)},
-           {now[i] - 3 * one[i] + 3 * two[i] - three[i], limits.jerk[i] * std::pow(period, 3)}}};
-      for (std::size_t order = 0; order < measured.size(); ++order) {
-        const auto [difference, most] = measured[order];
-        const double share = std::max(0.0, std::abs(difference) - rounding) / most;
-        verdict.largest_share = std::max(verdict.largest_share, share);
-        if (share > 1 + kMargin) {
-          constexpr std::array kNames = {"velocity", "acceleration", "jerk"};
-          note(tick, fmt::format("{:.4f} of the limit of {} of axis {}", share, kNames[order], "XYZ"[i]));
-        }
-      }
-    }
-    const double distance = follower.distance(now);
-    verdict.farthest = std::max(verdict.farthest, distance);
-    if (distance > kOnCurve)
-      note(tick, fmt::format("{:.6f} mm off the planned curve at {} s", distance, follower.time()));
-    const bool moves = now != one;
-    if (moved && !moves) ++verdict.stops;
-    moved = moves;
-    before = {now, one, two};
-  }
-  verdict.reached = follower.time();
-  if (moved) note(commands.size(), "it does not end at rest");
-  if (complete && before[0] != plan.trajectory.final_state().position)
-    note(commands.size(), "not at the end of the path");
-  return verdict;
+  return judge.finish();
 }
 
 }  // namespace kcs::faults

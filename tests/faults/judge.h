@@ -1,32 +1,41 @@
-// Judges what drives were commanded: by the commands alone, and the plan that they should have followed.
+// Judges what drives were commanded: by the commands alone, and the plans that they should have followed.
 #pragma once
 
-#include <filesystem>
+#include <deque>
 #include <string>
 #include <vector>
 
 #include "server/motion/limits.h"
 #include "server/planning/plan.h"
+#include "tests/faults/drives.h"
 
 namespace kcs::faults {
 
-// One command each period, mm.
-using Commands = std::vector<motion::Vector>;
+// One run of a plan.
+struct Run {
+  planning::Plan plan;
+  double begun = 0;       // on the clock of the drives, s; the machine rested then
+  bool complete = false;  // it was to go to its very end
+};
+using Runs = std::deque<Run>;
 
-// Of a recording of kcs-gateway attach.
-Commands read_recording(const std::filesystem::path& file);
-
-struct Verdict {
-  double largest_share = 0;  // of a limit of velocity, acceleration or jerk, by the differences of the commands
-  double farthest = 0;       // from the planned curve, mm
-  double reached = 0;        // of the plan, s
-  std::size_t stops = 0;     // from motion to rest
-  std::string fault;         // the first thing that is wrong
+// Where the machine was with a command.
+struct Place {
+  const Run* run;   // the one that had begun last; null: none had
+  double time;      // of its plan, s
+  bool as_planned;  // at the planned pace
+  bool moves;
 };
 
-// The commands must begin at the plan's start, and follow its curve forward without leaving any of it out.
-// complete: to its very end.
-Verdict judge(const Commands& commands, const planning::Plan& plan, const motion::AxisLimits& limits, double period,
-              bool complete);
+struct Verdict {
+  double largest_share = 0;   // of a limit of velocity, acceleration or jerk, by the differences of the commands
+  double farthest = 0;        // from the planned curve, mm
+  std::vector<Place> places;  // one for each command
+  std::string fault;          // the first thing that is wrong
+};
+
+// From one run to the next the commands must follow the planned curve forward without leaving any of it out, and end at
+// rest. The places that it returns point to the runs.
+Verdict judge(const Commands& commands, const Runs& runs, const motion::AxisLimits& limits, double period);
 
 }  // namespace kcs::faults

@@ -2,108 +2,77 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <cmath>
-#include <functional>
+#include <algorithm>
+#include <cstdio>
 #include <random>
+#include <set>
 #include <thread>
 
-#include "tests/faults/judge.h"
-#include "tests/faults/scene.h"
+#include "tests/faults/faults.h"
 
 namespace kcs::faults {
 namespace {
 
-using std::chrono::milliseconds;
-
 constexpr double kPeriod = 0.001;  // s
 
-class Chance {
- public:
-  explicit Chance(unsigned seed) : random_(seed) {}
-
-  milliseconds time(int least, int most) {
-    return milliseconds(std::uniform_int_distribution<int>(least, most)(random_));
-  }
-  // As often short as long.
-  milliseconds stall() {
-    return milliseconds(static_cast<int>(std::pow(10, std::uniform_real_distribution<double>(0, longest_)(random_))));
-  }
-  void set_longest_stall(double seconds) { longest_ = 3 + std::log10(seconds); }
-  double percent() { return std::uniform_int_distribution<int>(0, 4)(random_) == 0 ? 0 : uniform(1, 200); }
-  double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-
- private:
-  std::mt19937 random_;
-  double longest_ = 4;
+struct Options {
+  int count = 200;
+  unsigned seed = std::random_device()();
+  double longest_stall = 10;  // s
+  double piece = 400;         // mm
+  std::string only, program, driver;
 };
 
-void wait(milliseconds time) { std::this_thread::sleep_for(time); }
-
-struct Fault {
-  const char* name;
-  std::function<void(Scene&, Chance&)> happen;  // once, and over again
-};
-
-std::vector<Fault> all_faults() {
-  return {{"hold",
-           [](Scene& scene, Chance&) {
-             scene.hold();
-             scene.wait_for(v1::RUN_STATE_HELD);
-           }},
-          {"feed override",
-           [](Scene& scene, Chance& chance) {
-             scene.set_override(chance.percent());
-             wait(chance.time(10, 600));
-             scene.set_override(100);
-           }},
-          {"link pulled",
-           [](Scene& scene, Chance& chance) {
-             scene.cable().cut(true);
-             wait(chance.time(0, 600));
-             scene.cable().cut(false);
-           }},
-          {"link stalled",
-           [](Scene& scene, Chance& chance) {
-             scene.cable().stall(true);
-             wait(chance.stall());
-             scene.cable().stall(false);
-           }},
-          {"link slow",
-           [](Scene& scene, Chance& chance) {
-             scene.cable().delay(chance.time(1, 80));
-             wait(chance.time(100, 800));
-             scene.cable().delay(milliseconds(0));
-           }},
-          {"byte corrupted", [](Scene& scene, Chance&) { scene.cable().corrupt(); }},
-          {"server slow",
-           [](Scene& scene, Chance& chance) {
-             scene.pause_server(true);
-             wait(chance.time(1, 700));
-             scene.pause_server(false);
-           }},
-          {"server kill -9", [](Scene& scene, Chance& chance) { scene.restart_server(chance.time(0, 500)); }}};
+std::size_t count_stops(const std::vector<Place>& places) {
+  std::size_t stops = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) stops += places[i - 1].moves && !places[i].moves ? 1 : 0;
+  return stops;
 }
 
 // True if all went well.
-bool try_fault(const Part& part, const Fault& fault, int count, Chance& chance) {
-  Scene scene(part);
-  int happened = 0;
-  for (; happened < count; ++happened) {
+bool try_fault(const Program& program, const std::string& driver, const Fault& fault, const Options& options,
+               Chance& chance) {
+  Scene scene(driver == "hal" ? hal_drives() : simulated_drives(), ProgramCursor(program, options.piece));
+  for (int happened = 0; happened < options.count;) {
     scene.go_on();
-    if (scene.is_over()) break;
-    wait(chance.time(100, 500));
+    std::this_thread::sleep_for(chance.time(100, 500));
+    if (!scene.is_running()) continue;  // its end came first
     fault.happen(scene, chance);
+    ++happened;
   }
   scene.go_on();
-  // What is left goes by quickly, and without a fault.
-  scene.abort();
-  wait(milliseconds(300));
-  const Verdict verdict = judge(read_recording(scene.finish()), part.plan, part.limits, kPeriod, false);
-  fmt::print("{:<16}{:<16}{:>8}{:>8}{:>14.6f}{:>16.1e}{:>12.1f}  {}\n", part.name, fault.name, happened, verdict.stops,
-             verdict.largest_share, verdict.farthest, verdict.reached, verdict.fault.empty() ? "good" : verdict.fault);
+  scene.run_to_end();
+  scene.finish();
+  const Verdict verdict = judge(scene.drives().record(), scene.runs(), machine_limits(), kPeriod);
+  fmt::print("{:<8}{:<11}{:<18}{:>6}{:>6}{:>7}{:>12.6f}{:>16.1e}  {}\n", program.name, driver, fault.name,
+             options.count, scene.runs().size(), count_stops(verdict.places), verdict.largest_share, verdict.farthest,
+             verdict.fault.empty() ? "good" : verdict.fault);
   std::fflush(stdout);
-  return verdict.fault.empty() && happened > 0;
+  return verdict.fault.empty();
+}
+
+bool is_asked_for(const std::string& wish, const std::string& name) { return wish.empty() || wish == name; }
+
+bool try_all(const Options& options) {
+  if (const auto missing = missing_for_hal(); missing && is_asked_for(options.driver, "hal")) {
+    fmt::print(stderr, "faults: no HAL: {}; --driver simulated does without\n", *missing);
+    return false;
+  }
+  fmt::print("seed {}\n{:<8}{:<11}{:<18}{:>6}{:>6}{:>7}{:>12}{:>16}\n", options.seed, "program", "driver", "fault",
+             "times", "runs", "stops", "of a limit", "off curve, mm");
+  Chance chance(options.seed, options.longest_stall);
+  bool good = true;
+  for (const Program& program : {sharp_program(), dense_program()}) {
+    if (!is_asked_for(options.program, program.name)) continue;
+    for (const char* driver : {"simulated", "hal"}) {
+      if (!is_asked_for(options.driver, driver)) continue;
+      for (const Fault& fault : all_faults()) {
+        if (!is_asked_for(options.only, fault.name) || (fault.kills_gateway && driver != std::string("hal"))) continue;
+        good = try_fault(program, driver, fault, options, chance) && good;
+      }
+    }
+  }
+  return good;
 }
 
 }  // namespace
@@ -111,29 +80,21 @@ bool try_fault(const Part& part, const Fault& fault, int count, Chance& chance) 
 
 int main(int argc, char** argv) {
   using namespace kcs::faults;
-  int count = 200;
-  unsigned seed = std::random_device()();
-  double longest_stall = 10;
-  std::string only;
+  Options options;
+  std::set<std::string> names;
+  for (const Fault& fault : all_faults()) names.insert(fault.name);
   CLI::App app("Disturbs a running machine at random instants, and judges what its drives were commanded.",
                "kcs_faults");
-  app.add_option("COUNT", count, "instants per fault and program")->check(CLI::Range(1, 100000));
-  app.add_option("--seed", seed, "of the instants");
-  app.add_option("--longest-stall", longest_stall, "of the link, s")->check(CLI::Range(0.01, 100.0));
-  app.add_option("--only", only, "this fault alone");
+  app.add_option("COUNT", options.count, "instants per fault, program and driver")->check(CLI::Range(1, 100000));
+  app.add_option("--seed", options.seed, "of the instants");
+  app.add_option("--longest-stall", options.longest_stall, "of the link, s")->check(CLI::Range(0.01, 100.0));
+  app.add_option("--piece", options.piece, "length of a run, mm")->check(CLI::Range(1.0, 1e6));
+  app.add_option("--only", options.only, "this fault alone")->check(CLI::IsMember(names));
+  app.add_option("--program", options.program, "this one alone")->check(CLI::IsMember({"sharp", "dense"}));
+  app.add_option("--driver", options.driver, "this one alone")->check(CLI::IsMember({"simulated", "hal"}));
   CLI11_PARSE(app, argc, argv);
   try {
-    fmt::print("seed {}\n{:<16}{:<16}{:>8}{:>8}{:>14}{:>16}{:>12}\n", seed, "program", "fault", "times", "stops",
-               "of a limit", "off curve, mm", "reached, s");
-    Chance chance(seed);
-    chance.set_longest_stall(longest_stall);
-    bool good = true;
-    for (const Part& part : {sharp_part(), dense_part()}) {
-      for (const Fault& fault : all_faults()) {
-        if (only.empty() || only == fault.name) good = try_fault(part, fault, count, chance) && good;
-      }
-    }
-    return good ? 0 : 1;
+    return try_all(options) ? 0 : 1;
   } catch (const std::exception& failure) {
     fmt::print(stderr, "faults: {}\n", failure.what());
     return 1;

@@ -3,15 +3,8 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
-
-#include "server/gcode/reader.h"
-#include "server/planning/plan_path.h"
 
 namespace kcs::faults {
 namespace {
@@ -19,113 +12,56 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPatience{30};
-constexpr double kFeed = 60;  // mm/s
-constexpr double kTolerance = 0.02;
-
-// The limits of deploy/machines/machining-center.toml.
-const std::array<double, 3> kVelocity = {500, 500, 400}, kAcceleration = {3400, 3400, 2800},
-                            kJerk = {35000, 35000, 28000};
-
-v1::CreatePlanRequest options() {
-  v1::CreatePlanRequest message;
-  v1::PlanOptions& options = *message.mutable_options();
-  v1::Machine& machine = *options.mutable_machine();
-  machine.set_axes(3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    machine.add_velocity_mm_s(kVelocity[i]);
-    machine.add_acceleration_mm_s2(kAcceleration[i]);
-    machine.add_jerk_mm_s3(kJerk[i]);
-  }
-  options.set_feed_mm_s(kFeed);
-  options.set_tolerance_mm(kTolerance);
-  return message;
-}
-
-Part make_part(const std::string& name, const std::string& gcode) {
-  Part part;
-  part.name = name;
-  part.request = {options(), {}};
-  part.request[1].set_gcode(gcode);
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    part.limits.velocity[i] = kVelocity[axis];
-    part.limits.acceleration[i] = kAcceleration[axis];
-    part.limits.jerk[i] = kJerk[axis];
-  }
-  const planning::PlanOptions options{.limits = part.limits};
-  planning::Toolpath path;
-  gcode::Reader reader({.feed = kFeed, .tolerance = kTolerance},
-                       [&path](const planning::Segment& segment) { path.segments.push_back(segment); });
-  reader.read(gcode);
-  reader.finish();
-  part.plan = planning::plan(path, options);
-  return part;
-}
+constexpr std::chrono::seconds kPatience{60};
+constexpr milliseconds kLookAgain{5};
 
 struct Call : grpc::ClientContext {
   Call() { set_deadline(std::chrono::system_clock::now() + kPatience); }
 };
 
+// Until `attempt` returns an OK status; throws with the last one.
+template <typename Attempt>
+void insist(const std::string& what, const Attempt& attempt) {
+  grpc::Status status;
+  for (const auto end = steady_clock::now() + kPatience; steady_clock::now() < end;) {
+    status = attempt();
+    if (status.ok()) return;
+    std::this_thread::sleep_for(kLookAgain);
+  }
+  throw std::runtime_error(what + ": " + status.error_message());
+}
+
+template <typename Request>
+Request named(const std::string& run) {
+  Request request;
+  request.set_name(run);
+  return request;
+}
+
+bool is_over(const v1::Run& run) { return run.state() >= v1::RUN_STATE_FINISHED; }
+
+bool is_attached(const v1::Run& run) { return run.machine_state() != v1::MACHINE_STATE_UNSPECIFIED; }
+
 }  // namespace
 
-Part sharp_part() {
-  std::string gcode = "G1 F3600\n";
-  for (int i = 1; i <= 3000; ++i) {
-    gcode += fmt::format("X{} Y{} Z{}\n", 4 * (i % 50), 11 * (i % 2) + i % 7, (i % 3) * 0.5);
-  }
-  return make_part("sharp corners", gcode);
-}
-
-Part dense_part() {
-  std::ifstream in(KCS_SOURCE "/deploy/demo/part.ngc");
-  return make_part("dense program", std::string(std::istreambuf_iterator<char>(in), {}));
-}
-
-Scene::Scene(const Part& part) : listen_("127.0.0.1:0") {
+Scene::Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor)
+    : drives_(std::move(drives)), cursor_(cursor) {
   start_server();
-  listen_ = server_->address();
   cable_ = std::make_unique<test::Cable>(std::stoi(listen_.substr(listen_.rfind(':') + 1)));
-  connect();
-  std::ofstream(folder_.path() / "gateway.toml") << fmt::format(
-      "[machine]\nname = \"bench\"\n[simulated]\nprofile = \"machining-center\"\nfollowing_error_mm = [5, 5, 5]\n");
-  gateway_ = std::make_unique<test::ChildProcess>(
-      std::vector<std::string>{KCS_GATEWAY, "attach", "--config", (folder_.path() / "gateway.toml").string(),
-                               "--server", cable_->address(), "--record", (folder_.path() / "run.csv").string()});
-  begin(part);
+  start_gateway();
 }
 
 void Scene::start_server() {
   server_ = std::make_unique<test::KcsdProcess>(std::vector<std::string>{
       KCSD, "--listen", listen_, "--database", "sqlite:" + (folder_.path() / "plans.db").string()});
-}
-
-void Scene::connect() {
+  listen_ = server_->address();
   const auto channel = grpc::CreateChannel(listen_, grpc::InsecureChannelCredentials());
   machines_ = v1::MachineService::NewStub(channel);
   planning_ = v1::PlanningService::NewStub(channel);
 }
 
-void Scene::begin(const Part& part) {
-  Call call;
-  v1::Plan plan;
-  const auto writer = planning_->CreatePlan(&call, &plan);
-  for (const v1::CreatePlanRequest& message : part.request) writer->Write(message);
-  writer->WritesDone();
-  if (const grpc::Status status = writer->Finish(); !status.ok()) throw std::runtime_error(status.error_message());
-  v1::RunPlanRequest request;
-  request.set_machine("machines/bench");
-  request.set_plan(plan.name());
-  grpc::Status status;
-  for (const auto end = steady_clock::now() + kPatience; steady_clock::now() < end;) {
-    Call run_call;
-    v1::Run run;
-    status = machines_->RunPlan(&run_call, request, &run);
-    run_ = run.name();
-    if (status.ok()) return;
-    std::this_thread::sleep_for(milliseconds(20));
-  }
-  throw std::runtime_error("the run does not begin: " + status.error_message() + "\n" + gateway_->errors());
+void Scene::start_gateway() {
+  gateway_ = std::make_unique<test::ChildProcess>(drives_->gateway_command(cable_->address()));
 }
 
 void Scene::pause_server(bool paused) { server_->process().send_signal(paused ? SIGSTOP : SIGCONT); }
@@ -135,84 +71,139 @@ void Scene::restart_server(milliseconds down) {
   server_->process().wait();
   std::this_thread::sleep_for(down);
   start_server();
-  connect();
+}
+
+void Scene::restart_gateway(milliseconds down) {
+  gateway_->send_signal(SIGKILL);
+  gateway_->wait();
+  std::this_thread::sleep_for(down);
+  start_gateway();
+}
+
+std::string Scene::create_plan(const planning::Toolpath& path) {
+  v1::Plan plan;
+  insist("no plan is made", [&] {
+    Call call;
+    const auto writer = planning_->CreatePlan(&call, &plan);
+    for (const v1::CreatePlanRequest& message : request_of(path)) writer->Write(message);
+    writer->WritesDone();
+    return writer->Finish();
+  });
+  return plan.name();
+}
+
+void Scene::begin(const planning::Toolpath& path) {
+  v1::RunPlanRequest request;
+  request.set_machine("machines/bench");
+  request.set_plan(create_plan(path));
+  planning::Plan plan = make_plan(path);
+  runs_.push_back({.plan = std::move(plan), .begun = drives_->now()});
+  insist("the run does not begin", [&] {
+    Call call;
+    v1::Run run;
+    const grpc::Status status = machines_->RunPlan(&call, request, &run);
+    run_ = run.name();
+    return status;
+  });
 }
 
 v1::Run Scene::run() {
-  grpc::Status status;
-  for (const auto end = steady_clock::now() + kPatience; steady_clock::now() < end;) {
+  v1::Run run;
+  insist("nothing is known of the run", [&] {
     Call call;
-    v1::GetRunRequest request;
-    request.set_name(run_);
-    v1::Run run;
-    status = machines_->GetRun(&call, request, &run);
-    if (status.ok()) return run;
-    std::this_thread::sleep_for(milliseconds(20));
-  }
-  throw std::runtime_error("nothing is known of the run: " + status.error_message());
+    return machines_->GetRun(&call, named<v1::GetRunRequest>(run_), &run);
+  });
+  return run;
 }
 
-grpc::Status Scene::hold() {
+motion::Vector Scene::machine_position() {
+  v1::ListMachinesResponse machines;
+  insist("where the machine is, is not known", [&] {
+    Call call;
+    const grpc::Status status = machines_->ListMachines(&call, {}, &machines);
+    if (!status.ok() || machines.machines_size() == 1) return status;
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "the machine is not attached");
+  });
+  const auto& position = machines.machines(0).report().position_mm();
+  return {position[0], position[1], position[2]};
+}
+
+void Scene::hold() {
   Call call;
-  v1::HoldRunRequest request;
-  request.set_name(run_);
   v1::Run run;
-  return machines_->HoldRun(&call, request, &run);
+  machines_->HoldRun(&call, named<v1::HoldRunRequest>(run_), &run);
 }
 
-grpc::Status Scene::abort() {
+void Scene::resume() {
   Call call;
-  v1::AbortRunRequest request;
-  request.set_name(run_);
   v1::Run run;
-  return machines_->AbortRun(&call, request, &run);
+  machines_->ResumeRun(&call, named<v1::ResumeRunRequest>(run_), &run);
 }
 
-grpc::Status Scene::set_override(double percent) {
+void Scene::abort() {
   Call call;
-  v1::SetFeedOverrideRequest request;
-  request.set_name(run_);
+  v1::Run run;
+  machines_->AbortRun(&call, named<v1::AbortRunRequest>(run_), &run);
+}
+
+void Scene::set_override(double percent) {
+  Call call;
+  auto request = named<v1::SetFeedOverrideRequest>(run_);
   request.set_feed_override_percent(percent);
   v1::Run run;
-  return machines_->SetFeedOverride(&call, request, &run);
+  machines_->SetFeedOverride(&call, request, &run);
+}
+
+void Scene::wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what) {
+  v1::Run seen;
+  for (const auto end = steady_clock::now() + kPatience; steady_clock::now() < end;) {
+    seen = run();
+    if (is_so(seen)) return;
+    std::this_thread::sleep_for(kLookAgain);
+  }
+  throw std::runtime_error(fmt::format("the run {}: {}\n{}", what, seen.ShortDebugString(), gateway_->errors()));
 }
 
 void Scene::wait_for(v1::RunState state) {
-  v1::Run seen;
-  for (const auto end = steady_clock::now() + kPatience; steady_clock::now() < end;) {
-    seen = run();
-    if (seen.state() == state) return;
-    std::this_thread::sleep_for(milliseconds(5));
+  wait_until([state](const v1::Run& run) { return run.state() == state || is_over(run); }, "does not become so");
+}
+
+void Scene::note_end(const v1::Run& run) {
+  if (run.state() == v1::RUN_STATE_FAILED) {
+    throw std::runtime_error("the run failed: " + run.ShortDebugString() + "\n" + gateway_->errors());
   }
-  throw std::runtime_error("the run is not " + v1::RunState_Name(state) + ": " + seen.ShortDebugString() + "\n" +
-                           gateway_->errors());
+  runs_.back().complete = run.state() == v1::RUN_STATE_FINISHED;
 }
 
 void Scene::go_on() {
-  v1::Run seen;
-  for (const auto end = steady_clock::now() + kPatience; steady_clock::now() < end;) {
-    seen = run();
-    const bool attached = seen.machine_state() != v1::MACHINE_STATE_UNSPECIFIED;
-    if (seen.state() >= v1::RUN_STATE_FINISHED) return;
-    if (attached && seen.state() == v1::RUN_STATE_RUNNING) return;
-    if (attached && seen.state() == v1::RUN_STATE_HELD) {
-      Call call;
-      v1::ResumeRunRequest request;
-      request.set_name(run_);
-      v1::Run resumed;
-      machines_->ResumeRun(&call, request, &resumed);
-    }
-    std::this_thread::sleep_for(milliseconds(5));
+  if (run_.empty()) begin(cursor_.next());
+  if (const v1::Run last = run(); is_over(last)) {
+    note_end(last);
+    begin(runs_.back().complete ? cursor_.next() : cursor_.next_from(machine_position()));
   }
-  throw std::runtime_error("the run does not go on: " + seen.ShortDebugString() + "\n" + gateway_->errors());
+  wait_until(
+      [this](const v1::Run& run) {
+        if (is_attached(run) && run.state() == v1::RUN_STATE_HELD) resume();
+        return is_over(run) || (is_attached(run) && run.state() == v1::RUN_STATE_RUNNING);
+      },
+      "does not go on");
 }
 
-std::filesystem::path Scene::finish() {
+void Scene::run_to_end() {
+  wait_until(
+      [this](const v1::Run& run) {
+        if (is_attached(run) && run.state() == v1::RUN_STATE_HELD) resume();
+        return is_over(run);
+      },
+      "does not come to its end");
+  note_end(run());
+}
+
+void Scene::finish() {
   gateway_->send_signal(SIGTERM);
   if (const int code = gateway_->wait(); code != 0) {
     throw std::runtime_error(fmt::format("the gateway ended with {}:\n{}", code, gateway_->errors()));
   }
-  return folder_.path() / "run.csv";
 }
 
 }  // namespace kcs::faults

@@ -1,72 +1,76 @@
-// A kcsd, a gateway with simulated drives, a line between them, and one run.
+// A kcsd, a gateway with its drives, a line between them, and one run after the other.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
 #include <kcs/v1/machine.grpc.pb.h>
 #include <kcs/v1/planning.grpc.pb.h>
 
-#include <filesystem>
+#include <chrono>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "server/planning/plan.h"
 #include "tests/cable/cable.h"
+#include "tests/faults/drives.h"
+#include "tests/faults/judge.h"
+#include "tests/faults/program.h"
 #include "tests/files/temporary_folder.h"
 #include "tests/system/kcsd_process.h"
 
 namespace kcs::faults {
 
-// What is run, and the same plan made here, to judge by.
-struct Part {
-  std::string name;
-  std::vector<v1::CreatePlanRequest> request;
-  motion::AxisLimits limits;
-  planning::Plan plan;
-};
-
-// Many sharp corners, and a program of dense curves.
-Part sharp_part();
-Part dense_part();
-
 class Scene {
  public:
-  // Everything up, the run begun. Throws std::runtime_error if something does not work.
-  explicit Scene(const Part& part);
+  // Everything up, nothing run yet. Throws std::runtime_error if something does not work, as all of this does.
+  Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor);
 
+  const Drives& drives() const { return *drives_; }
   test::Cable& cable() { return *cable_; }
-  test::ChildProcess& gateway() { return *gateway_; }
   void pause_server(bool paused);
-  // kill -9, and a new one on the same port and database.
+  // kill -9, and a new one: of the server on the same port and database.
   void restart_server(std::chrono::milliseconds down);
+  void restart_gateway(std::chrono::milliseconds down);
 
-  v1::Run run();
-  grpc::Status hold();
-  grpc::Status abort();
-  grpc::Status set_override(double percent);
-  // Until it is so; throws std::runtime_error with the run if it does not become so.
-  void wait_for(v1::RunState state);
-  bool is_over() { return run().state() >= v1::RUN_STATE_FINISHED; }
-  // Waits until it moves, or is over; resumes it as often as it is held.
+  // Waits until the machine moves: resumes its run as often as it is held, begins the next one when it is over.
   void go_on();
+  // Waits until the run is at the end of its path; resumes it as often as it is held.
+  void run_to_end();
+  bool is_running() { return run().state() == v1::RUN_STATE_RUNNING; }
+  void hold();
+  void abort();
+  void set_override(double percent);
+  void wait_for(v1::RunState state);
 
-  // Ends the gateway; every command that it gave.
-  std::filesystem::path finish();
+  // Ends the gateway. The run must be over.
+  void finish();
+  // Those that were begun; after finish().
+  const Runs& runs() const { return runs_; }
+  std::uint64_t starvations() { return run().starvations(); }
+  // What the gateway has logged; of the last one.
+  std::string log() const { return gateway_->errors(); }
 
  private:
   void start_server();
-  void begin(const Part& part);
-  void connect();
+  void start_gateway();
+  void begin(const planning::Toolpath& path);
+  std::string create_plan(const planning::Toolpath& path);
+  v1::Run run();
+  motion::Vector machine_position();
+  void note_end(const v1::Run& run);
+  void resume();
+  void wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what);
 
+  std::unique_ptr<Drives> drives_;
+  ProgramCursor cursor_;
   test::TemporaryFolder folder_;
-  std::string listen_;
+  std::string listen_ = "127.0.0.1:0";
   std::unique_ptr<test::KcsdProcess> server_;
   std::unique_ptr<test::Cable> cable_;
   std::unique_ptr<test::ChildProcess> gateway_;
   std::unique_ptr<v1::MachineService::Stub> machines_;
   std::unique_ptr<v1::PlanningService::Stub> planning_;
-  std::string run_;
+  Runs runs_;
+  std::string run_;  // empty: none yet
 };
 
 }  // namespace kcs::faults

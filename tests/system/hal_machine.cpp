@@ -118,9 +118,17 @@ ChildProcess HalMachine::feeder(double length_mm) const {
 }
 
 std::vector<HalSample> HalMachine::record() const {
+  return record_until([](const HalSample& last) { return last.state == KCS_PLAYER_READY; });
+}
+
+std::vector<HalSample> HalMachine::record_until(unsigned long tick) const {
+  return record_until([tick](const HalSample& last) { return last.tick >= tick; });
+}
+
+std::vector<HalSample> HalMachine::record_until(const std::function<bool(const HalSample&)>& is_end) const {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   std::vector<HalSample> samples = read_samples(folder_ + "/samples");
-  while (samples.empty() || samples.back().state != KCS_PLAYER_READY) {
+  while (samples.empty() || !is_end(samples.back())) {
     if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("the record does not come to an end");
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     samples = read_samples(folder_ + "/samples");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,12 +37,14 @@ class HalMachine {
   ChildProcess feeder(double length_mm) const;
   // Once a run has come to its end: all that has been sampled, until the machine was READY again.
   std::vector<HalSample> record() const;
-  // Starts a program as HAL's user, among HAL's own processes.
+  // All that has been sampled, once that goes as far as this tick of the player.
+  std::vector<HalSample> record_until(unsigned long tick) const;
+  // How to start a program as HAL's user, among HAL's own processes.
+  std::vector<std::string> inside(const std::vector<std::string>& arguments) const;
   ChildProcess start(const std::vector<std::string>& arguments) const { return ChildProcess(inside(arguments)); }
 
  private:
-  // How to start it among HAL's own processes.
-  std::vector<std::string> inside(const std::vector<std::string>& arguments) const;
+  std::vector<HalSample> record_until(const std::function<bool(const HalSample&)>& is_end) const;
 
   std::string folder_;
   std::optional<ChildProcess> hal_;

@@ -1,0 +1,67 @@
+#include "tests/faults/faults.h"
+
+#include <thread>
+
+namespace kcs::faults {
+namespace {
+
+using std::chrono::milliseconds;
+
+void wait(milliseconds time) { std::this_thread::sleep_for(time); }
+
+void hold(Scene& scene, Chance&) {
+  scene.hold();
+  scene.wait_for(v1::RUN_STATE_HELD);
+}
+
+void change_override(Scene& scene, Chance& chance) {
+  scene.set_override(chance.percent());
+  wait(chance.time(10, 600));
+  scene.set_override(100);
+}
+
+void pull_link(Scene& scene, Chance& chance) {
+  scene.cable().cut(true);
+  wait(chance.time(0, 600));
+  scene.cable().cut(false);
+}
+
+void stall_link(Scene& scene, Chance& chance) {
+  scene.cable().stall(true);
+  wait(chance.stall());
+  scene.cable().stall(false);
+}
+
+void slow_link(Scene& scene, Chance& chance) {
+  scene.cable().delay(chance.time(1, 80));
+  wait(chance.time(100, 800));
+  scene.cable().delay(milliseconds(0));
+}
+
+void corrupt_byte(Scene& scene, Chance&) { scene.cable().corrupt(); }
+
+void pause_server(Scene& scene, Chance& chance) {
+  scene.pause_server(true);
+  wait(chance.time(1, 700));
+  scene.pause_server(false);
+}
+
+void kill_server(Scene& scene, Chance& chance) { scene.restart_server(chance.time(0, 500)); }
+
+void kill_gateway(Scene& scene, Chance& chance) { scene.restart_gateway(chance.time(0, 500)); }
+
+}  // namespace
+
+std::vector<Fault> all_faults() {
+  return {{.name = "hold", .happen = hold},
+          {.name = "feed override", .happen = change_override},
+          {.name = "link pulled", .happen = pull_link},
+          {.name = "link stalled", .happen = stall_link},
+          {.name = "link slow", .happen = slow_link},
+          {.name = "byte corrupted", .happen = corrupt_byte},
+          {.name = "server slow", .happen = pause_server},
+          {.name = "server kill -9", .happen = kill_server},
+          {.name = "gateway kill -9", .happen = kill_gateway, .kills_gateway = true}};
+}
+
+}  // namespace kcs::faults
