@@ -50,6 +50,22 @@ void kill_server(Scene& scene, Chance& chance) { scene.restart_server(chance.tim
 
 void kill_gateway(Scene& scene, Chance& chance) { scene.restart_gateway(chance.time(0, 500)); }
 
+void repeat_batch(Scene& scene, Chance&) { scene.scrambler().play({.kind = Trick::kRepeat}); }
+
+void reorder_batches(Scene& scene, Chance&) { scene.scrambler().play({.kind = Trick::kSwap}); }
+
+void lose_batch(Scene& scene, Chance&) { scene.scrambler().play({.kind = Trick::kLose}); }
+
+void delay_batch(Scene& scene, Chance& chance) {
+  scene.scrambler().play({.kind = Trick::kDelay, .delay = chance.time(1, 500)});
+}
+
+// By more than a machine can move in a period: less would be a motion like any other.
+void corrupt_batch(Scene& scene, Chance& chance) {
+  const auto kind = chance.time(0, 1).count() == 0 ? Trick::kCorrupt : Trick::kForge;
+  scene.scrambler().play({.kind = kind, .place = chance.uniform(0, 1), .change_mm = chance.uniform(1, 10)});
+}
+
 }  // namespace
 
 std::vector<Fault> all_faults() {
@@ -61,6 +77,11 @@ std::vector<Fault> all_faults() {
           {.name = "byte corrupted", .happen = corrupt_byte},
           {.name = "server slow", .happen = pause_server},
           {.name = "server kill -9", .happen = kill_server},
+          {.name = "batch repeated", .happen = repeat_batch, .scrambles = true},
+          {.name = "batches reordered", .happen = reorder_batches, .scrambles = true},
+          {.name = "batch lost", .happen = lose_batch, .scrambles = true},
+          {.name = "batch delayed", .happen = delay_batch, .scrambles = true},
+          {.name = "batch corrupted", .happen = corrupt_batch, .scrambles = true},
           {.name = "gateway kill -9", .happen = kill_gateway, .kills_gateway = true}};
 }
 

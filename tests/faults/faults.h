@@ -13,6 +13,7 @@ namespace kcs::faults {
 struct Fault {
   std::string name;
   std::function<void(Scene&, Chance&)> happen;  // once, to a machine that moves, and over again
+  bool scrambles = false;                       // batches on their way
   bool kills_gateway = false;                   // for drives that outlive it
 };
 

@@ -32,7 +32,8 @@ std::size_t count_stops(const std::vector<Place>& places) {
 // True if all went well.
 bool try_fault(const Program& program, const std::string& driver, const Fault& fault, const Options& options,
                Chance& chance) {
-  Scene scene(driver == "hal" ? hal_drives() : simulated_drives(), ProgramCursor(program, options.piece));
+  Scene scene(driver == "hal" ? hal_drives() : simulated_drives(), ProgramCursor(program, options.piece),
+              fault.scrambles);
   for (int happened = 0; happened < options.count;) {
     scene.go_on();
     std::this_thread::sleep_for(chance.time(100, 500));

@@ -44,10 +44,12 @@ bool is_attached(const v1::Run& run) { return run.machine_state() != v1::MACHINE
 
 }  // namespace
 
-Scene::Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor)
+Scene::Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor, bool scrambles)
     : drives_(std::move(drives)), cursor_(cursor) {
   start_server();
-  cable_ = std::make_unique<test::Cable>(std::stoi(listen_.substr(listen_.rfind(':') + 1)));
+  if (scrambles) scrambler_ = std::make_unique<Scrambler>(listen_);
+  const int port = std::stoi(listen_.substr(listen_.rfind(':') + 1));
+  cable_ = std::make_unique<test::Cable>(scrambles ? scrambler_->port() : port);
   start_gateway();
 }
 

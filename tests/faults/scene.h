@@ -14,6 +14,7 @@
 #include "tests/faults/drives.h"
 #include "tests/faults/judge.h"
 #include "tests/faults/program.h"
+#include "tests/faults/scrambler.h"
 #include "tests/files/temporary_folder.h"
 #include "tests/system/kcsd_process.h"
 
@@ -21,11 +22,13 @@ namespace kcs::faults {
 
 class Scene {
  public:
-  // Everything up, nothing run yet. Throws std::runtime_error if something does not work, as all of this does.
-  Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor);
+  // Everything up, nothing run yet; with a scrambler before the server if there is to be one. Throws std::runtime_error
+  // if something does not work, as all of this does.
+  Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor, bool scrambles);
 
   const Drives& drives() const { return *drives_; }
   test::Cable& cable() { return *cable_; }
+  Scrambler& scrambler() { return *scrambler_; }
   void pause_server(bool paused);
   // kill -9, and a new one: of the server on the same port and database.
   void restart_server(std::chrono::milliseconds down);
@@ -65,6 +68,7 @@ class Scene {
   test::TemporaryFolder folder_;
   std::string listen_ = "127.0.0.1:0";
   std::unique_ptr<test::KcsdProcess> server_;
+  std::unique_ptr<Scrambler> scrambler_;
   std::unique_ptr<test::Cable> cable_;
   std::unique_ptr<test::ChildProcess> gateway_;
   std::unique_ptr<v1::MachineService::Stub> machines_;
