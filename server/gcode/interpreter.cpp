@@ -37,7 +37,8 @@ void Interpreter::execute(const Words& words) {
   check_axes(words);
   check_use(words, codes);
   note_words_without_effect(words, codes, notices_);
-  if (codes.has(Group::kToolChange)) builder_.rest();
+  if (codes.has(Group::kToolChange)) change_tool(codes);
+  switches_.execute(words, codes, builder_);
   switch (codes[Group::kThisBlock]) {
     case code(4):
       dwell(words, codes);
@@ -198,10 +199,20 @@ void Interpreter::note_missing_centre(const Words& words, const Codes& codes) {
   });
 }
 
+// Nobody changes a tool that turns.
+void Interpreter::change_tool(const Codes& codes) {
+  builder_.rest();
+  switches_.stop_spindle(codes.place(Group::kToolChange), builder_);
+}
+
+// The end of a program leaves nothing on.
 void Interpreter::stop(const Codes& codes) {
   if (!codes.has(Group::kStopping)) return;
   builder_.rest();
   program_has_ended_ = codes[Group::kStopping] == code(2) || codes[Group::kStopping] == code(30);
+  if (!program_has_ended_) return;
+  switches_.stop_spindle(codes.place(Group::kStopping), builder_);
+  switches_.stop_coolant(codes.place(Group::kStopping), builder_);
 }
 
 // The length that a word states, mm.

@@ -6,13 +6,14 @@
 #include "server/gcode/notices.h"
 #include "server/gcode/options.h"
 #include "server/gcode/path_builder.h"
+#include "server/gcode/switches.h"
 #include "server/gcode/words.h"
 #include "server/planning/toolpath.h"
 
 namespace kcs::gcode {
 
 // Executes blocks one after the other. Within a block the order is that of RS-274, whatever the order of its words:
-// modes, tool change, dwell, offset or move, stop.
+// modes, tool change, spindle, coolant, dwell, offset or move, stop.
 // What differs from a machine: work offsets, tool lengths and tool radii count as zero; the program's coordinates are
 // the machine's until G92 shifts them. Each such word is noted.
 class Interpreter {
@@ -45,6 +46,7 @@ class Interpreter {
   void note_mismatch(const Arc& arc, Place place);
   void note_shortfall(const Arc& arc, double radius, Place place);
   void note_missing_centre(const Words& words, const Codes& codes);
+  void change_tool(const Codes& codes);
   void stop(const Codes& codes);
 
   double length(const Words& words, char letter) const;
@@ -57,6 +59,7 @@ class Interpreter {
   Options options_;
   Notices& notices_;
   PathBuilder builder_;
+  Switches switches_;
   Modes modes_;
   Vector offset_ = Vector::Zero();        // of G92: machine less program coordinates, mm
   Vector saved_offset_ = Vector::Zero();  // what G92.3 brings back

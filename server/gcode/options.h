@@ -16,7 +16,7 @@ struct Options {
   double rapid = std::numeric_limits<double>::infinity();  // mm/s along the path; infinity: the axes' limits
   std::optional<double> feed;                              // mm/s; replaces every programmed feed and the rapid
   double tolerance = 0.01;                                 // mm, until the program says otherwise; 0 acts like G61
-  std::size_t max_segments = 10'000'000;                   // of the whole path; 56 bytes each
+  std::size_t max_segments = 10'000'000;                   // of the whole path; 64 bytes each
   std::size_t max_chords = 1'000'000;                      // of one arc
   std::size_t max_names = 10'000;                          // of parameters, up to 100 bytes each
   std::size_t max_kept_bytes = 16'000'000;                 // of subroutines, and of the outermost loop

@@ -62,13 +62,18 @@ void PathBuilder::rest() {
 }
 
 void PathBuilder::dwell(double duration, Place place) {
-  // The path has no other place for a dwell at its very start than a segment of no length.
-  if (!last_) append(position(), 0, {.feed = std::numeric_limits<double>::infinity(), .place = place});
+  if (!last_) append_pause(place);
   last_->stop = true;
   last_->dwell += duration;
   if (last_->dwell > planning::range::kMaxDwell) {
     refuse(place, "the tool would stay here for more than 1e6 s. G4 P is in seconds.");
   }
+}
+
+void PathBuilder::mark(const planning::Marker& marker, Place place) {
+  const bool is_free = last_ && last_->dwell == 0 && last_->marker.kind == planning::MarkerKind::kNone;
+  if (!is_free) append_pause(place);
+  last_->marker = marker;
 }
 
 void PathBuilder::finish() {
@@ -84,9 +89,14 @@ void PathBuilder::append(const Vector& end, double tolerance, const Manner& mann
   ++segments_;
   if (last_) {
     take_(*last_);
-    last_start_ = last_->end;
+    if (end != last_->end) last_start_ = last_->end;
   }
   last_ = {.end = end, .feed = manner.feed, .tolerance = tolerance, .line = manner.place.line};
+}
+
+// A segment of no length: for what happens at the very start of the path, or one thing after the other at one place.
+void PathBuilder::append_pause(Place place) {
+  append(position(), 0, {.feed = std::numeric_limits<double>::infinity(), .place = place});
 }
 
 // Where a move is to be followed exactly, lets the tool rest before it, unless the path goes on smoothly. Where an arc

@@ -48,6 +48,8 @@ class PathBuilder {
   void rest();
   // Stays where the tool is for `duration` s, > 0.
   void dwell(double duration, Place place);
+  // Switches something where the tool is, after what it did there before.
+  void mark(const planning::Marker& marker, Place place);
   // Nothing more comes.
   void finish();
 
@@ -56,11 +58,12 @@ class PathBuilder {
 
  private:
   void append(const Vector& end, double tolerance, const Manner& manner);
+  void append_pause(Place place);
   void rest_at_corner(const Vector& first_end, double turn, const Manner& manner);
 
   TakeSegment take_;
   std::optional<planning::Segment> last_;
-  Vector last_start_;  // or where the path starts, mm
+  Vector last_start_;  // of it, or if it does not move of the one before it; or where the path starts, mm
   std::size_t segments_ = 0;
   std::size_t max_segments_;
   std::size_t max_chords_;

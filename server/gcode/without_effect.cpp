@@ -8,13 +8,8 @@ namespace {
 void note_codes(const Words& words, const Codes& codes, Notices& notices) {
   const std::uint32_t line = words.start().line;
   const int radius = codes[Group::kToolRadius];
-  if (words.has('S') || codes.has(Group::kSpindle) || codes.has(Group::kSpindleMode)) {
-    notices.add({'S'}, line,
-                [] { return "Spindle commands (S, M3 to M5, G96, G97) have no effect: a plan is motion only."; });
-  }
-  if (codes.has(Group::kCoolant)) {
-    notices.add({'M', code(8)}, line,
-                [] { return "Coolant commands (M7 to M9) have no effect: a plan is motion only."; });
+  if (codes.has(Group::kSpindleMode)) {
+    notices.add({'S'}, line, [] { return "Spindle modes (G96, G97) have no effect: S is the speed in 1/min."; });
   }
   if (words.has('T') || codes.has(Group::kToolChange)) {
     notices.add({'T'}, line,

@@ -7,8 +7,8 @@
 
 namespace kcs::gcode {
 
-// Notes every word of a block that has no effect on the path: of the spindle, the coolant and the tool table, of work
-// offsets, and letters that kcs does not know.
+// Notes every word of a block that has no effect: of the spindle's mode, the tool table and work offsets, and letters
+// that kcs does not know.
 void note_words_without_effect(const Words& words, const Codes& codes, Notices& notices);
 
 }  // namespace kcs::gcode

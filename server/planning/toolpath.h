@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "server/motion/phase.h"
+#include "server/planning/marker.h"
 
 namespace kcs::planning {
 
@@ -18,6 +19,7 @@ struct Segment {
   double dwell = 0;             // s, ≥ 0; how long the tool stays at the end; more than 0 implies `stop`
   std::uint32_t line = 0;       // of the program, from 1; 0: not known
   bool stop = false;            // the tool comes to rest on the end exactly
+  Marker marker;                // what is switched when the tool comes to the end, before it dwells there
 };
 
 // What is nearer than this to the point before it, mm, does not move: no machine resolves a picometre.
@@ -33,7 +35,7 @@ struct PathEnds {
   double end_speed = 0;           // mm/s, ≥ 0: at the end, along the last segment; 0: rest
 };
 
-// Segments of no length are allowed; their stops and dwells count, but they are not counted as segments.
+// Segments of no length are allowed; their stops, dwells and markers count, but they are not counted as segments.
 struct Toolpath : PathEnds {
   std::vector<Segment> segments;
 

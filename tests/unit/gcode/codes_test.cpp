@@ -47,9 +47,8 @@ TEST(Codes, WithoutEffectAreNoted) {
     const char* note;
   } cases[] = {{"G43 H1", "Tool lengths"},  {"G49", "Tool lengths"}, {"H3", "Tool lengths"},  {"G41 D1", "Tool radius"},
                {"G42.1 D2", "Tool radius"}, {"D08", "Tool radius"},  {"G54", "Work offsets"}, {"G59.3", "Work offsets"},
-               {"M3 S100", "Spindle"},      {"G97", "Spindle"},      {"M8", "Coolant"},       {"T1 M6", "Tools"},
-               {"G99", "G98 and G99"},      {"M49", "M48 and M49"},  {"M106 S255", "M106"},   {"E5", "E words"},
-               {"Q1", "Q words"},           {"L1", "L words"}};
+               {"G97", "Spindle modes"},    {"T1 M6", "Tools"},      {"G99", "G98 and G99"},  {"M49", "M48 and M49"},
+               {"M106 S255", "M106"},       {"E5", "E words"},       {"Q1", "Q words"},       {"L1", "L words"}};
   for (const auto& [word, note] : cases) {
     const Program program = read_program("G0 X1\nX2 Y0\n" + std::string(word));
     ASSERT_EQ(program.notices.size(), 1U) << word;
@@ -61,7 +60,7 @@ TEST(Codes, WithoutEffectAreNoted) {
 }
 
 TEST(Codes, OfOrdinaryProgramsAreNotNoted) {
-  EXPECT_TRUE(read_program("N1 G17 G21 G40 G64 P.1 G80 G90 G94\nG0 X1\nG1 Y1 F60\nM0\nM30").notices.empty());
+  EXPECT_TRUE(read_program("N1 G17 G21 G40 G64 P.1 G80 G90 G94\nG0 X1 S100 M3\nG1 Y1 F60 M8\nM0\nM30").notices.empty());
 }
 
 TEST(Codes, AnUnknownMWordTakesItsBlockWithIt) {

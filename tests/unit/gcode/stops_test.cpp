@@ -111,11 +111,5 @@ TEST(Stop, IsWhereTheProgramStopsOrChangesTheTool) {
   EXPECT_EQ(stops_of(read_program("G0 X1\nX2 M6\nX3")), Stops{0});
 }
 
-TEST(Stop, IsNotWhereSpindleAndCoolantSwitch) {
-  const Program program = read_program("G0 X1 S1000 M3\nX2 M8\nX3 M5 M9\nX4 T1");
-  EXPECT_EQ(stops_of(program), Stops{});
-  EXPECT_EQ(program.notices.size(), 3U);
-}
-
 }  // namespace
 }  // namespace kcs::gcode
