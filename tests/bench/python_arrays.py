@@ -44,7 +44,9 @@ def main() -> None:
     for name, read in (("bytes", by_bytes), ("np.array", by_array), ("np.fromiter", by_iterator)):
         seconds = min(timeit.repeat(read, number=ROUNDS, repeat=5)) / ROUNDS
         fastest = fastest or seconds
-        print(f"{name:12} {SETPOINTS / seconds / 1e6:8.2f} million setpoints/s   {seconds / fastest:6.1f} × the time of bytes")
+        print(
+            f"{name:12} {SETPOINTS / seconds / 1e6:8.2f} million setpoints/s   {seconds / fastest:6.1f} × the time of bytes"
+        )
 
 
 if __name__ == "__main__":
