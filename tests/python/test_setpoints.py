@@ -1,8 +1,5 @@
 """Setpoints as arrays."""
 
-from collections.abc import Iterator
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -72,31 +69,3 @@ def test_a_period_out_of_range_is_refused_by_the_server(circle: kcs.Plan) -> Non
     with pytest.raises(kcs.Error) as failure:
         circle.setpoints(0)
     assert failure.value.violations[0].field == "period_s"
-
-
-def test_a_broken_stream_goes_on_where_it_broke(circle: kcs.Plan, monkeypatch: pytest.MonkeyPatch) -> None:
-    whole = circle.setpoints(0.001)
-    real = circle._client._messages
-    began_at = []
-
-    def breaks_after_two(method: Any, request: Any) -> Iterator[Any]:
-        began_at.append(request.first_index)
-        for count, message in enumerate(real(method, request)):
-            if count == 2 and len(began_at) < 3:
-                raise kcs.Error("UNAVAILABLE", "the link is gone")
-            yield message
-
-    monkeypatch.setattr(circle._client, "_messages", breaks_after_two)
-    batches = list(circle.setpoint_batches(0.001, batch_size=50))
-    assert began_at == [0, 100, 200]
-    assert np.array_equal(np.concatenate([batch.position_mm for batch in batches]), whole.position_mm)
-
-
-def test_a_stream_that_brings_nothing_more_is_given_up(circle: kcs.Plan, monkeypatch: pytest.MonkeyPatch) -> None:
-    def is_gone(method: Any, request: Any) -> Iterator[Any]:
-        raise kcs.Error("UNAVAILABLE", "the link is gone")
-        yield
-
-    monkeypatch.setattr(circle._client, "_messages", is_gone)
-    with pytest.raises(kcs.Error, match="the link is gone"):
-        circle.setpoints(0.001)

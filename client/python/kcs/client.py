@@ -27,8 +27,8 @@ __all__ = ["Client", "Plan"]
 class Client:
     """Asks a server to plan tool paths.
 
-    May be used by several threads at once. ``with kcs.Client() as client:`` closes it at the end; otherwise it is closed
-    when nobody uses it any more, or its plans.
+    May be used by several threads at once; a process that is forked needs a client of its own. ``with kcs.Client() as
+    client:`` closes it at the end; otherwise it is closed when nobody uses it any more, or its plans.
     """
 
     def __init__(self, server: str | Connection | None = None) -> None:
