@@ -35,7 +35,8 @@ def test_a_profile_is_read_from_a_file(client: kcs.Client, tmp_path: Path) -> No
     ("before", "after", "problem"),
     [
         ("axes = 2", "", "machine.axes is missing"),
-        ("axes = 2", "axes = 3", "limits.velocity_mm_s has 2 numbers: give 3"),
+        ("axes = 2", "axes = 3", r"limits.velocity_mm_s is \[100, 90\]: give 3 numbers"),
+        ("[100, 90]", '[100, "fast"]', r"limits.velocity_mm_s is \[100, 'fast'\]: give 2 numbers"),
         ("[100, 90]", '"fast"', "limits.velocity_mm_s is 'fast'"),
         ("jerk_mm_s3", "jerk", "limits.jerk_mm_s3 is missing"),
         ("[limits]", "[limits]\nfeed = 3", "limits.feed is not known"),

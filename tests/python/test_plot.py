@@ -42,6 +42,10 @@ def test_it_is_saved_in_the_format_of_its_name(
     assert file.read_bytes().startswith(begins_with)
 
 
+def test_notebooks_can_show_it(circle: kcs.Plan) -> None:
+    assert circle.plot(samples=200)._repr_png_().startswith(b"\x89PNG")
+
+
 def test_asyncio_draws_it_too(client: kcs.Client, circle: kcs.Plan, tmp_path: Path) -> None:
     async def draw() -> None:
         async with kcs.aio.Client(client._connection.address) as own:

@@ -39,8 +39,9 @@ def plan_requests(
     """All that is not right with the arguments is told here, before the first message is asked for."""
     if (gcode is None) == (points is None):
         raise ValueError("give either gcode or points")
+    found = find_machine(machine)
     options = _contract.PlanOptions(
-        machine=to_message(find_machine(machine)),
+        machine=to_message(found),
         tolerance_kind=_number(_TOLERANCE_KINDS, "tolerance_kind", tolerance_kind),
         strategy=_number(_STRATEGIES, "strategy", strategy),
         start_mm=[] if start is None else _contract.to_packed(start),
@@ -53,7 +54,7 @@ def plan_requests(
         options.feed_mm_s = float(feed)  # type: ignore[arg-type]
         feed = None
     if points is not None:
-        pieces = _path_pieces(points, feed, tolerance, lines, stops or {})
+        pieces = _path_pieces(found.axes, points, feed, tolerance, lines, stops or {})
     elif any(value is not None for value in (feed, tolerance, lines, stops)):
         raise ValueError(
             "with gcode, feed and tolerance are single numbers, and lines and stops are those of the program"
@@ -91,11 +92,14 @@ def _gcode_pieces(program: bytes) -> Iterator[dict[str, Any]]:
 
 
 def _path_pieces(
-    points: Any, feed: Any, tolerance: Any, lines: Any, stops: Mapping[int, float]
+    axes: int, points: Any, feed: Any, tolerance: Any, lines: Any, stops: Mapping[int, float]
 ) -> Iterator[dict[str, Any]]:
     path = np.asarray(points, dtype=np.float64)
-    if path.ndim != 2 or path.shape[1] not in (2, 3):
-        raise ValueError(f"points have the shape {path.shape}: give one row per point, of two or three numbers in mm")
+    if path.ndim != 2 or path.shape[1] != axes:
+        raise ValueError(
+            f"points have the shape {path.shape}: give one row per point, of {axes} numbers in mm, as the machine has "
+            f"{axes} axes"
+        )
     count = len(path)
     columns = {
         "feed_mm_s": ("feed", feed, np.float64),

@@ -27,7 +27,7 @@ from kcs.errors import Error
 from kcs.setpoints import Channel, SetpointRequest, Setpoints, join
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from kcs.plot import Picture
 
 __all__ = ["Client", "Plan"]
 
@@ -179,7 +179,7 @@ class Plan(PlanRecord):
         begin: float = 0.0,
         end: float | None = None,
         samples: int = 20_000,
-    ) -> "Figure":
+    ) -> "Picture":
         """A picture of path, velocity, acceleration and jerk. See kcs.Plan.plot."""
         from kcs.plot import draw, window
 

@@ -19,7 +19,7 @@ from kcs.errors import Error
 from kcs.setpoints import Channel, SetpointRequest, Setpoints, join
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from kcs.plot import Picture
 
 __all__ = ["Client", "Plan"]
 
@@ -209,13 +209,13 @@ class Plan(PlanRecord):
         begin: float = 0.0,
         end: float | None = None,
         samples: int = 20_000,
-    ) -> "Figure":
+    ) -> "Picture":
         """A picture: the path coloured by speed; velocity, acceleration and jerk against time, with their limits.
 
         file: where to save it; its ending says the format (.png, .svg, .pdf). None: nowhere.
         begin, end: the part of the cycle to show, s. Default: all of it.
         samples: instants at which the motion is looked at, evenly over that time.
-        Needs matplotlib. Returns its Figure, which notebooks show.
+        Needs matplotlib. Returns its Figure, which notebooks show by itself.
         """
         from kcs.plot import draw, window
 

@@ -74,8 +74,8 @@ def _parse(text: str, source: str) -> Machine:
     limits = _section(profile, "limits", per_axis, {"rapid_mm_s": (int, float)}, source)
     axes = fields.pop("axes")
     for key in per_axis:
-        if len(limits[key]) != axes:
-            raise ValueError(f"{source}: limits.{key} has {len(limits[key])} numbers: give {axes}, one per axis")
+        if len(limits[key]) != axes or not all(isinstance(limit, int | float) for limit in limits[key]):
+            raise ValueError(f"{source}: limits.{key} is {limits[key]}: give {axes} numbers, one per axis")
     unknown = profile.keys() - {"machine", "limits"}
     if unknown:
         raise ValueError(f"{source}: {min(unknown)} is not known: a profile has [machine] and [limits]")

@@ -1,5 +1,6 @@
 """The picture of a plan."""
 
+import io
 import math
 import os
 from typing import Any, Final, NamedTuple, cast
@@ -13,11 +14,23 @@ from kcs._plan_record import PlanRecord
 from kcs.setpoints import Setpoints
 from kcs.summary import format_time
 
-__all__ = ["Window", "draw", "window"]
+__all__ = ["Picture", "Window", "draw", "window"]
 
 _AXES: Final = "XYZ"
 _COLOURS: Final = ("tab:red", "tab:green", "tab:blue")
 _SHORTEST_PERIOD_S: Final = 1e-5
+
+
+class Picture(Figure):
+    """A figure that notebooks show by itself.
+
+    It is not made by way of pyplot, which would keep every figure until it is told to close it.
+    """
+
+    def _repr_png_(self) -> bytes:
+        content = io.BytesIO()
+        self.savefig(content, format="png")
+        return content.getvalue()
 
 
 class Window(NamedTuple):
@@ -39,13 +52,12 @@ def window(cycle_time_s: float, begin: float, end: float | None, samples: int) -
     return Window(period, math.floor(begin / period), math.ceil(end / period))
 
 
-def draw(plan: PlanRecord, setpoints: Setpoints, file: str | os.PathLike[str] | None = None) -> Figure:
+def draw(plan: PlanRecord, setpoints: Setpoints, file: str | os.PathLike[str] | None = None) -> Picture:
     """The path coloured by speed; velocity, acceleration and jerk against time, each with its limits.
 
     setpoints: of the plan, with velocity, acceleration and jerk. file: where to save the picture; None: nowhere.
     """
-    # Not by way of pyplot, which would keep every figure until it is told to close it. Notebooks show it all the same.
-    figure: Any = Figure(figsize=(14, 8), layout="constrained")
+    figure: Any = Picture(figsize=(14, 8), layout="constrained")
     left, right = figure.subfigures(1, 2, width_ratios=(1, 1))
     _draw_path(left.subplots(), setpoints)
     limits = plan.machine
@@ -65,7 +77,7 @@ def draw(plan: PlanRecord, setpoints: Setpoints, file: str | os.PathLike[str] | 
     )
     if file is not None:
         figure.savefig(file, dpi=150)
-    return cast(Figure, figure)
+    return cast(Picture, figure)
 
 
 def _draw_path(panel: Any, setpoints: Setpoints) -> None:

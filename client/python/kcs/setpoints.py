@@ -26,8 +26,7 @@ _PER_AXIS = {
 @dataclass(frozen=True)
 class Setpoints:
     """Consecutive setpoints of n instants. Arrays per axis have the shape (n, axes), their columns are contiguous.
-
-    A channel that was not asked for raises AttributeError.
+    Those of a batch are read-only. A channel that was not asked for raises AttributeError.
     """
 
     first_index: int
