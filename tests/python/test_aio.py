@@ -57,7 +57,7 @@ def test_batches_may_be_left_before_their_end(client: kcs.Client, table: kcs.Mac
 
 def test_a_task_that_is_cancelled_leaves_the_client_in_order(client: kcs.Client, table: kcs.Machine) -> None:
     angle = np.linspace(0, 600, 200_000)
-    points = 50 * np.column_stack((np.cos(7 * angle), np.sin(5 * angle)))  # takes many seconds to plan
+    points = 50 * np.column_stack((np.cos(7 * angle), np.sin(5 * angle)))  # takes seconds to plan
 
     async def test(own: kcs.aio.Client) -> None:
         with pytest.raises(asyncio.TimeoutError):

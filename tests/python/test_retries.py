@@ -38,7 +38,9 @@ class FailingServer:
                 grpc.method_handlers_generic_handler("grpc.health.v1.Health", {"Check": health}),
             )
         )
-        self.address = f"localhost:{self._server.add_insecure_port('localhost:0')}"
+        port = self._server.add_insecure_port("localhost:0")
+        # So patient that a busy computer ends no call before its last attempt.
+        self.connection = kcs.Connection(f"localhost:{port}", patience_s=60)
         self._server.start()
 
     @staticmethod
@@ -105,21 +107,21 @@ def breaking_setpoints(call: int, request: Any) -> Iterator[bytes]:
 
 def test_a_question_is_asked_again_when_the_server_cannot_answer_just_then(failing: FailingServer) -> None:
     failing.answers["GetPlan"] = failing_until(3, a_plan)
-    with kcs.Client(failing.address) as client:
+    with kcs.Client(failing.connection) as client:
         assert client.get(PLAN).name == PLAN
     assert failing.calls["GetPlan"] == 3
 
 
 def test_but_not_for_ever(failing: FailingServer) -> None:
     failing.answers["GetPlan"] = failing_until(100, a_plan)
-    with kcs.Client(failing.address) as client, pytest.raises(kcs.Error, match="the store cannot be reached"):
+    with kcs.Client(failing.connection) as client, pytest.raises(kcs.Error, match="the store cannot be reached"):
         client.get(PLAN)
     assert failing.calls["GetPlan"] == 4
 
 
 def test_what_would_answer_otherwise_the_second_time_is_not_asked_again(failing: FailingServer) -> None:
     failing.answers["DeletePlan"] = failing_until(2, nothing)
-    with kcs.Client(failing.address) as client, pytest.raises(kcs.Error) as failure:
+    with kcs.Client(failing.connection) as client, pytest.raises(kcs.Error) as failure:
         client.delete(PLAN)
     assert failure.value.code == "UNAVAILABLE"
     assert failing.calls["DeletePlan"] == 1
@@ -127,7 +129,7 @@ def test_what_would_answer_otherwise_the_second_time_is_not_asked_again(failing:
 
 def test_setpoints_go_on_where_they_broke(failing: FailingServer) -> None:
     failing.answers |= {"GetPlan": a_plan, "StreamSetpoints": breaking_setpoints}
-    with kcs.Client(failing.address) as client:
+    with kcs.Client(failing.connection) as client:
         setpoints = client.get(PLAN).setpoints(0.1)
     assert np.array_equal(setpoints.position_mm[:, 0], np.arange(30))
     assert failing.calls["StreamSetpoints"] == 3
@@ -139,7 +141,7 @@ def test_setpoints_that_bring_nothing_more_are_given_up(failing: FailingServer) 
         yield
 
     failing.answers |= {"GetPlan": a_plan, "StreamSetpoints": broken}
-    with kcs.Client(failing.address) as client, pytest.raises(kcs.Error, match="the store cannot be reached"):
+    with kcs.Client(failing.connection) as client, pytest.raises(kcs.Error, match="the store cannot be reached"):
         client.get(PLAN).setpoints(0.1)
     assert failing.calls["StreamSetpoints"] == 4
 
@@ -148,7 +150,7 @@ def test_with_asyncio_too(failing: FailingServer) -> None:
     failing.answers |= {"GetPlan": failing_until(2, a_plan), "StreamSetpoints": breaking_setpoints}
 
     async def positions() -> Any:
-        async with kcs.aio.Client(failing.address) as client:
+        async with kcs.aio.Client(failing.connection) as client:
             return (await (await client.get(PLAN)).setpoints(0.1)).position_mm
 
     assert np.array_equal(asyncio.run(positions())[:, 0], np.arange(30))
