@@ -77,8 +77,9 @@ void Cable::connect_through(int client, const std::stop_token& stop) {
   const sockaddr_in address = loopback(server_port_);
   bool open = !cut_ && connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   std::array<char, 65'536> buffer{};
+  const int abandoned = abandoned_;
   while (open && !cut_ && !stop.stop_requested()) {
-    if (stalls_) {
+    if (stalls_ || abandoned != abandoned_) {
       std::this_thread::sleep_for(std::chrono::milliseconds(kLookEveryMs));
       continue;
     }

@@ -28,6 +28,8 @@ class Cable {
   void stall(bool stalls) { stalls_ = stalls; }
   // What the server sends comes so much later, piece by piece.
   void delay(std::chrono::milliseconds delay) { delay_ = delay; }
+  // What is connected gets nothing any more, for ever, and is not told so; new connections are well.
+  void abandon() { ++abandoned_; }
   // Changes a byte of what the server sends next.
   void corrupt() { corrupts_ = true; }
 
@@ -42,6 +44,7 @@ class Cable {
   std::atomic<bool> cut_ = false;
   std::atomic<bool> stalls_ = false;
   std::atomic<bool> corrupts_ = false;
+  std::atomic<int> abandoned_ = 0;  // times
   std::atomic<std::chrono::milliseconds> delay_{};
   std::jthread thread_;  // last: it uses all the others
 };

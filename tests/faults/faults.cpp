@@ -14,6 +14,12 @@ void hold(Scene& scene, Chance&) {
   scene.wait_for(v1::RUN_STATE_HELD);
 }
 
+// A run of its own each time: the next one goes on from where this one comes to rest.
+void abort(Scene& scene, Chance&) {
+  scene.abort();
+  scene.wait_for(v1::RUN_STATE_ABORTED);
+}
+
 void change_override(Scene& scene, Chance& chance) {
   scene.set_override(chance.percent());
   wait(chance.time(10, 600));
@@ -36,6 +42,12 @@ void slow_link(Scene& scene, Chance& chance) {
   scene.cable().delay(chance.time(1, 80));
   wait(chance.time(100, 800));
   scene.cable().delay(milliseconds(0));
+}
+
+// The gateway notices it by a ping, and attaches anew.
+void lose_link(Scene& scene, Chance&) {
+  scene.cable().abandon();
+  scene.wait_for(v1::RUN_STATE_HELD);
 }
 
 void corrupt_byte(Scene& scene, Chance&) { scene.cable().corrupt(); }
@@ -70,10 +82,12 @@ void corrupt_batch(Scene& scene, Chance& chance) {
 
 std::vector<Fault> all_faults() {
   return {{.name = "hold", .happen = hold},
+          {.name = "abort", .happen = abort},
           {.name = "feed override", .happen = change_override},
           {.name = "link pulled", .happen = pull_link},
           {.name = "link stalled", .happen = stall_link},
           {.name = "link slow", .happen = slow_link},
+          {.name = "link dead", .happen = lose_link},
           {.name = "byte corrupted", .happen = corrupt_byte},
           {.name = "server slow", .happen = pause_server},
           {.name = "server kill -9", .happen = kill_server},
