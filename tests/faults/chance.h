@@ -18,8 +18,6 @@ class Chance {
   std::chrono::milliseconds stall() {
     return std::chrono::milliseconds(static_cast<int>(std::pow(10, uniform(0, std::log10(longest_stall_ms_)))));
   }
-  // A feed override: often 0.
-  double percent() { return time(0, 4).count() == 0 ? 0 : uniform(1, 200); }
   double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
 
  private:

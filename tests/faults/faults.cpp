@@ -7,6 +7,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
+// From the call on, s: what is promised of a hold, and of an override (proto/kcs/v1/machine.proto).
+constexpr double kStopsWithin = 0.05, kChangesWithin = 0.1;
+
 void wait(milliseconds time) { std::this_thread::sleep_for(time); }
 
 void hold(Scene& scene, Chance&) {
@@ -20,11 +23,19 @@ void abort(Scene& scene, Chance&) {
   scene.wait_for(v1::RUN_STATE_ABORTED);
 }
 
-void change_override(Scene& scene, Chance& chance) {
-  scene.set_override(chance.percent());
+void override_feed(Scene& scene, Chance& chance, double percent) {
+  scene.set_override(percent);
   wait(chance.time(10, 600));
   scene.set_override(100);
 }
+
+// Often to 0.
+void lower_feed(Scene& scene, Chance& chance) {
+  override_feed(scene, chance, chance.time(0, 4).count() == 0 ? 0 : chance.uniform(1, 95));
+}
+
+// As far as the limits have room, which may be nowhere near.
+void raise_feed(Scene& scene, Chance& chance) { override_feed(scene, chance, chance.uniform(105, 200)); }
 
 void pull_link(Scene& scene, Chance& chance) {
   scene.cable().cut(true);
@@ -81,9 +92,10 @@ void corrupt_batch(Scene& scene, Chance& chance) {
 }  // namespace
 
 std::vector<Fault> all_faults() {
-  return {{.name = "hold", .happen = hold},
-          {.name = "abort", .happen = abort},
-          {.name = "feed override", .happen = change_override},
+  return {{.name = "hold", .happen = hold, .reaction_s = kStopsWithin},
+          {.name = "abort", .happen = abort, .reaction_s = kStopsWithin},
+          {.name = "feed lowered", .happen = lower_feed, .reaction_s = kChangesWithin, .stops_by_tail = false},
+          {.name = "feed raised", .happen = raise_feed, .stops_by_tail = false},
           {.name = "link pulled", .happen = pull_link},
           {.name = "link stalled", .happen = stall_link},
           {.name = "link slow", .happen = slow_link},

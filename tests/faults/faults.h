@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace kcs::faults {
 struct Fault {
   std::string name;
   std::function<void(Scene&, Chance&)> happen;  // once, to a machine that moves, and over again
+  std::optional<double> reaction_s = {};        // half of all must be answered so soon by another pace
+  bool stops_by_tail = true;                    // every stop is the tail of a batch
   bool scrambles = false;                       // batches on their way
   bool kills_gateway = false;                   // for drives that outlive it
 };

@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kPatience{60}, kLongestRun{600};
 constexpr milliseconds kLookAgain{5};
 
 struct Call : grpc::ClientContext {
@@ -156,9 +156,10 @@ void Scene::set_override(double percent) {
   machines_->SetFeedOverride(&call, request, &run);
 }
 
-void Scene::wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what) {
+void Scene::wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what,
+                       std::chrono::seconds patience) {
   v1::Run seen;
-  for (const auto end = steady_clock::now() + kPatience; steady_clock::now() < end;) {
+  for (const auto end = steady_clock::now() + patience; steady_clock::now() < end;) {
     seen = run();
     if (is_so(seen)) return;
     std::this_thread::sleep_for(kLookAgain);
@@ -167,7 +168,8 @@ void Scene::wait_until(const std::function<bool(const v1::Run&)>& is_so, const c
 }
 
 void Scene::wait_for(v1::RunState state) {
-  wait_until([state](const v1::Run& run) { return run.state() == state || is_over(run); }, "does not become so");
+  wait_until([state](const v1::Run& run) { return run.state() == state || is_over(run); }, "does not become so",
+             kPatience);
 }
 
 void Scene::note_end(const v1::Run& run) {
@@ -188,7 +190,7 @@ void Scene::go_on() {
         if (is_attached(run) && run.state() == v1::RUN_STATE_HELD) resume();
         return is_over(run) || (is_attached(run) && run.state() == v1::RUN_STATE_RUNNING);
       },
-      "does not go on");
+      "does not go on", kPatience);
 }
 
 void Scene::run_to_end() {
@@ -197,7 +199,7 @@ void Scene::run_to_end() {
         if (is_attached(run) && run.state() == v1::RUN_STATE_HELD) resume();
         return is_over(run);
       },
-      "does not come to its end");
+      "does not come to its end", kLongestRun);
   note_end(run());
 }
 

@@ -48,6 +48,7 @@ class Scene {
   void finish();
   // Those that were begun; after finish().
   const Runs& runs() const { return runs_; }
+  // How often the gateway's player had no batch when one was due.
   std::uint64_t starvations() { return run().starvations(); }
   // What the gateway has logged; of the last one.
   std::string log() const { return gateway_->errors(); }
@@ -61,7 +62,7 @@ class Scene {
   motion::Vector machine_position();
   void note_end(const v1::Run& run);
   void resume();
-  void wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what);
+  void wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what, std::chrono::seconds patience);
 
   std::unique_ptr<Drives> drives_;
   ProgramCursor cursor_;
