@@ -18,7 +18,7 @@ namespace kcs::gateway {
 
 struct FeederOptions {
   std::string machine;     // "machines/NAME"
-  double commit_s = 0.06;  // motion to be with the player, > 0; what lies there cannot be replaced any more
+  double commit_s = 0.04;  // motion to be with the player, > 0; what lies there cannot be replaced any more
   // Ticks that the driver began more than a period late, so far.
   std::function<std::uint64_t()> late_ticks = [] { return std::uint64_t{0}; };
 };

@@ -22,7 +22,7 @@ enum class Driver {
 struct StreamSettings {
   double batch_s = 0.02;   // motion in a batch
   double window_s = 0.25;  // motion that the server sends ahead of what is played
-  double commit_s = 0.06;  // of it with the player, where it cannot be replaced any more
+  double commit_s = 0.04;  // of it with the player, where it cannot be replaced any more
   double report_s = 0.02;  // between two reports while a run is on
 };
 

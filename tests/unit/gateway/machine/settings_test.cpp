@@ -23,7 +23,7 @@ TEST(GatewaySettings, FewAreNeeded) {
   EXPECT_EQ(settings.simulated.profile.axes, 3u);
   EXPECT_EQ(settings.simulated.profile.period_s, 0.001);
   EXPECT_EQ(settings.simulated.start_mm, std::vector<double>(3, 0.0));
-  EXPECT_EQ(settings.stream.commit_s, 0.06);
+  EXPECT_EQ(settings.stream.commit_s, 0.04);
 }
 
 TEST(GatewaySettings, ExampleFileHoldsTheDefaults) {
