@@ -100,7 +100,7 @@ TEST(GatewaySettings, ErrorsSayWhereWhatAndWhatToDo) {
   EXPECT_EQ(
       problem(std::string(kLeast) + "[stream]\nbatch_s = 0.005\n"),
       "gateway.toml:4:1: stream.commit_s is more than the player has room for: make it 7 batches (batch_s) at most");
-  EXPECT_EQ(problem(std::string(kLeast) + "[stream]\nwindow_s = 0.08\n"),
+  EXPECT_EQ(problem(std::string(kLeast) + "[stream]\nwindow_s = 0.07\n"),
             "gateway.toml:4:1: stream.window_s is too short: it must hold commit_s and two batches (batch_s) more");
   EXPECT_EQ(problem("[machine]\nname = 3\n"), "gateway.toml:2:8: machine.name is not text; put it in double quotes");
 }
