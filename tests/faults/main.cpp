@@ -27,6 +27,9 @@ struct Options {
 // A tail begins behind a whole tick, so that rounding may cost it one.
 constexpr double kRounding = 1.5 * kPeriod;
 
+// Reactions, for their median to say something of the machine, not of what else the computer did.
+constexpr std::size_t kEnough = 5;
+
 // p50/largest, ms.
 std::string in_ms(const std::vector<double>& sorted) {
   if (sorted.empty()) return "-";
@@ -40,7 +43,7 @@ std::string find_fault(const Verdict& verdict, const Figures& figures, const Fau
     return fmt::format("a stop took {:.0f} ms longer than its planned tail", 1000 * figures.longest_beyond_tail);
   }
   const auto reaction = median(figures.reactions);
-  if (fault.reaction_s && reaction && *reaction > *fault.reaction_s) {
+  if (fault.reaction_s && figures.reactions.size() >= kEnough && *reaction > *fault.reaction_s) {
     return fmt::format("half of the reactions came later than {:.0f} ms", 1000 * *fault.reaction_s);
   }
   return {};
