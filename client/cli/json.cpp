@@ -72,6 +72,7 @@ std::string plan_json(const client::Plan& plan) {
                      {"max_acceleration_mm_s2", summary.max_acceleration_mm_s2},
                      {"max_jerk_mm_s3", summary.max_jerk_mm_s3},
                      {"phase_count", summary.phase_count},
+                     {"marker_count", summary.marker_count},
                      {"start_mm", summary.start_mm},
                      {"end_mm", summary.end_mm},
                      {"options", options_json(plan.options)},

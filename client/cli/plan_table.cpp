@@ -73,6 +73,7 @@ void add_figures(Table& table, const client::Plan& plan) {
   table.row("At feed", fmt::format("{:.3f} s, {} of the cycle time", s.time_at_feed_s,
                                    percentage(s.time_at_feed_s, s.cycle_time_s)));
   if (s.dwell_time_s > 0) table.row("Dwells", fmt::format("{:.3f} s", s.dwell_time_s));
+  if (s.marker_count > 0) table.row("Markers", with_commas(s.marker_count));
   table.row("Highest feed", fmt::format("{:.2f} mm/s ({:.0f} mm/min)", s.max_feed_mm_s, 60 * s.max_feed_mm_s));
   table.row("Contour error", fmt::format("{:.5f} mm at most; tolerance {} mm ({})", s.max_contour_error_mm,
                                          plan.options.tolerance_mm.value_or(0), name_of(plan.options.tolerance_kind)));

@@ -170,6 +170,7 @@ Summary from_message(const v1::PlanSummary& message) {
           .max_acceleration_mm_s2 = to_vector(message.max_acceleration_mm_s2()),
           .max_jerk_mm_s3 = to_vector(message.max_jerk_mm_s3()),
           .phase_count = message.phase_count(),
+          .marker_count = message.marker_count(),
           .start_mm = to_vector(message.start_mm()),
           .end_mm = to_vector(message.end_mm())};
 }

@@ -91,7 +91,8 @@ struct Summary {
   std::vector<double> max_acceleration_mm_s2;
   std::vector<double> max_jerk_mm_s3;
   std::uint64_t phase_count = 0;
-  std::vector<double> start_mm;  // first and last point, one number per axis
+  std::uint64_t marker_count = 0;  // what is switched along the path; a dwell counts as two
+  std::vector<double> start_mm;    // first and last point, one number per axis
   std::vector<double> end_mm;
 };
 

@@ -15,6 +15,7 @@ std::uint64_t size_of(const KeptPlan& plan) {
   bytes += plan.plan.path.bytes();
   bytes += plan.plan.milestones.capacity() * sizeof(motion::Milestone);
   bytes += plan.plan.corners.bytes();
+  bytes += plan.plan.markers.capacity() * sizeof(planning::MarkerAt);
   for (const gcode::Notice& notice : plan.notices) bytes += sizeof(gcode::Notice) + notice.text.capacity();
   return bytes;
 }

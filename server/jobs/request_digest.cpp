@@ -45,7 +45,9 @@ void RequestDigest::add(const planning::Segment& segment) {
   add(segment.feed);
   add(segment.tolerance);
   add(segment.dwell);
-  add(std::uint64_t{segment.line} << 1 | std::uint64_t{segment.stop});
+  const planning::Marker& marker = segment.marker;
+  add(static_cast<std::uint64_t>(marker.kind) << 40 | std::uint64_t{segment.line} << 1 | std::uint64_t{segment.stop});
+  if (marker.kind != planning::MarkerKind::kNone) add(double{marker.speed});
 }
 
 void RequestDigest::add(std::string_view gcode) {

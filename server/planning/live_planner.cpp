@@ -38,7 +38,9 @@ void LivePlanner::add(const Segment& segment) {
   validate(segment, segments_++, options_.limits.axes);
   summary_.dwell_time += segment.dwell;
   const Vector from = legs_.end();
-  if (legs_.add(segment)) {
+  const bool moves = legs_.add(segment);
+  markers_.add(segment, from, moves);
+  if (moves) {
     summary_.path_length += (segment.end - from).norm();
     receiver_.take(segment.end);
   }
@@ -47,6 +49,7 @@ void LivePlanner::add(const Segment& segment) {
 
 Summary LivePlanner::finish() {
   legs_.finish();
+  markers_.end_path();
   if (legs_.segments() == 0) begin();
   if (ends_.end_speed > 0) check_end_speed();
   while (legs_.size() > 0) {
@@ -54,6 +57,7 @@ Summary LivePlanner::finish() {
     settle_next();
   }
   log_.finish();
+  pass_on(markers_.finish(time_));
   const motion::State end = end_state();
   const auto found = verifier_->finish(end, end.velocity);
   check(found.fault);
@@ -230,9 +234,15 @@ void LivePlanner::go_on(const Section::Cut& from, const Section::Cut& to, std::s
 void LivePlanner::pass_on(std::span<const motion::Phase> phases) {
   for (const motion::Phase& phase : phases) {
     throw_if_stopped(options_.stop);
+    pass_on(markers_.follow(phase));
     receiver_.take(phase);
   }
   if (!phases.empty()) time_ = phases.back().end_time();
+}
+
+void LivePlanner::pass_on(std::span<const MarkerAt> markers) {
+  summary_.markers += markers.size();
+  for (const MarkerAt& marker : markers) receiver_.take(marker);
 }
 
 // Shows the first legs to the verifier.

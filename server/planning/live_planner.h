@@ -11,6 +11,7 @@
 #include "server/planning/corner_log.h"
 #include "server/planning/horizon.h"
 #include "server/planning/leg_queue.h"
+#include "server/planning/marker_times.h"
 #include "server/planning/options.h"
 #include "server/planning/plan.h"
 #include "server/planning/section.h"
@@ -25,14 +26,14 @@ namespace kcs::planning {
 // Every method that plans throws Stopped if options.stop asks for it; the planner is of no use then.
 class LivePlanner {
  public:
-  // `receiver` must outlive the planner; it gets phases and corners, in order. Throws InvalidInput.
+  // `receiver` must outlive the planner; it gets phases, corners and markers, each in order. Throws InvalidInput.
   LivePlanner(const PathEnds& ends, const PlanOptions& options, PlanReceiver& receiver);
 
   // The next segment. Throws InvalidInput if its numbers cannot be planned, or if the tool starts too fast.
   void add(const Segment& segment);
 
-  // How many segments have come whose motion is not settled yet.
-  std::size_t waiting_segments() const { return legs_.waiting_segments(); }
+  // How many segments and markers have come whose motion is not settled yet.
+  std::size_t waiting() const { return legs_.waiting_segments() + markers_.waiting(); }
 
   // After the last segment: settles the rest. Throws InvalidInput if the path is too short for the speeds at its ends.
   Summary finish();
@@ -51,6 +52,7 @@ class LivePlanner {
   bool follow_last();
   void go_on(const Section::Cut& from, const Section::Cut& to, std::size_t dropped);
   void pass_on(std::span<const motion::Phase> phases);
+  void pass_on(std::span<const MarkerAt> markers);
   void show_path(std::size_t legs);
   void follow(motion::Verifier& verifier, std::span<const motion::Phase> phases) const;
   static void check(const std::string& fault);
@@ -60,6 +62,7 @@ class LivePlanner {
   PlanReceiver& receiver_;
   std::size_t segments_ = 0;  // that came
   LegQueue legs_;
+  MarkerTimes markers_;
   Horizon horizon_;
   std::optional<motion::Verifier> verifier_;  // from the first section on
   std::size_t shown_ = 0;                     // legs of the queue that the verifier knows

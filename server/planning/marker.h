@@ -5,6 +5,7 @@
 
 namespace kcs::planning {
 
+// Numbered as in the contract.
 enum class MarkerKind : std::uint8_t {
   kNone,
   kSpindleClockwise,         // M3
@@ -22,6 +23,11 @@ struct Marker {
   MarkerKind kind = MarkerKind::kNone;
 
   bool operator==(const Marker&) const = default;
+};
+
+struct MarkerAt {
+  double time = 0;  // s, since the start of the plan
+  Marker marker;
 };
 
 }  // namespace kcs::planning

@@ -8,6 +8,7 @@
 #include "server/motion/progress.h"
 #include "server/motion/trajectory.h"
 #include "server/planning/corner_list.h"
+#include "server/planning/marker.h"
 
 namespace kcs::planning {
 
@@ -20,6 +21,7 @@ struct Summary {
   std::size_t blended = 0;
   std::size_t overlapping = 0;
   std::size_t exact_stops = 0;
+  std::size_t markers = 0;
   double time_lost_at_corners = 0;  // s
   double dwell_time = 0;            // s
   double time_at_feed = 0;          // s
@@ -37,7 +39,8 @@ struct Plan {
   // The path that it follows, segments of no length left out, and how far along it the motion is when.
   motion::Path path;
   std::vector<motion::Milestone> milestones;
-  CornerList corners;  // in the order of the path
+  CornerList corners;             // in the order of the path
+  std::vector<MarkerAt> markers;  // likewise
   Summary summary;
 };
 

@@ -3,6 +3,7 @@
 
 #include "server/motion/phase.h"
 #include "server/planning/corner.h"
+#include "server/planning/marker.h"
 #include "server/planning/toolpath.h"
 
 namespace kcs::planning {
@@ -15,6 +16,8 @@ class PlanReceiver {
   virtual void take(const Vector& segment_end) = 0;
   virtual void take(const motion::Phase& phase) = 0;
   virtual void take(const Corner& corner) = 0;
+  // Before the phase during which it is due, if there is one.
+  virtual void take(const MarkerAt& marker) = 0;
 };
 
 }  // namespace kcs::planning

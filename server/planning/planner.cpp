@@ -47,4 +47,5 @@ void Planner::take(const motion::Phase& phase) {
 
 void Planner::take(const Corner& corner) { plan_.corners.append(corner); }
 
+void Planner::take(const MarkerAt& marker) { plan_.markers.push_back(marker); }
 }  // namespace kcs::planning

@@ -37,6 +37,7 @@ class Planner final : PlanReceiver {
   void take(const Vector& segment_end) override;
   void take(const motion::Phase& phase) override;
   void take(const Corner& corner) override;
+  void take(const MarkerAt& marker) override;
 
   const Toolpath& path_;
   std::stop_token stop_;

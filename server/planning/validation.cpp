@@ -61,6 +61,7 @@ void check_segment(Validation& validation, const Segment& segment, std::size_t i
   }
   validation.in_range(field("tolerance"), segment.tolerance, 0, range::kMaxTolerance, "mm");
   validation.in_range(field("dwell"), segment.dwell, 0, range::kMaxDwell, "s");
+  validation.in_range(field("marker"), segment.marker.speed, 0, range::kMaxSpindleSpeed, "1/min");
 }
 
 void check_ends(Validation& validation, const PathEnds& ends, std::size_t axes) {

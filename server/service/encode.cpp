@@ -60,6 +60,7 @@ void encode_summary(const Outcome& outcome, std::size_t axes, v1::PlanSummary& m
   encode_vector(summary.max_acceleration, axes, *message.mutable_max_acceleration_mm_s2());
   encode_vector(summary.max_jerk, axes, *message.mutable_max_jerk_mm_s3());
   message.set_phase_count(outcome.phases);
+  message.set_marker_count(summary.markers);
   encode_vector(outcome.start, axes, *message.mutable_start_mm());
   encode_vector(outcome.end, axes, *message.mutable_end_mm());
 }
@@ -106,6 +107,11 @@ void encode_plan(const jobs::KeptPlan& kept, v1::Plan& message) {
   const planning::Plan& plan = kept.plan;
   encode_plan(kept, {plan.summary, plan.trajectory.size(), plan.start, plan.trajectory.final_state().position},
               message);
+}
+
+void encode_marker(const planning::Marker& marker, v1::Marker& message) {
+  message.set_kind(static_cast<v1::MarkerKind>(marker.kind));
+  message.set_value(marker.speed);
 }
 
 void encode_corner(const planning::Corner& corner, const planning::PlanOptions& options, v1::Corner& message) {

@@ -25,6 +25,8 @@ struct Outcome {
 void encode_plan(const jobs::RequestRecord& request, const Outcome& outcome, v1::Plan& message);
 void encode_plan(const jobs::KeptPlan& kept, v1::Plan& message);
 
+void encode_marker(const planning::Marker& marker, v1::Marker& message);
+
 // Corners in a message.
 inline constexpr int kCornersPerBatch = 1000;
 

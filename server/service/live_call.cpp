@@ -35,7 +35,7 @@ void LiveCall::plan(const planning::Segment& segment) {
     planner_.emplace(options.ends(incoming_->start()), planning, *this);
   }
   planner_->add(segment);
-  if (planner_->waiting_segments() > caps_.look_ahead) {
+  if (planner_->waiting() > caps_.look_ahead) {
     throw jobs::CapExceeded(
         "look_ahead", caps_.look_ahead,
         "the path goes on for longer before any of its motion can be settled: send points that lie on "
@@ -71,6 +71,8 @@ void LiveCall::take(const motion::Phase& phase) {
   ++phases_;
   setpoints_->add(phase);
 }
+
+void LiveCall::take(const planning::MarkerAt& marker) { setpoints_->add(marker); }
 
 void LiveCall::take(const planning::Corner& corner) {
   if (corners_) corners_->add(corner);

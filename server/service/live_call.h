@@ -40,6 +40,7 @@ class LiveCall final : public planning::PlanReceiver {
   void take(const planning::Vector& segment_end) override;
   void take(const motion::Phase& phase) override;
   void take(const planning::Corner& corner) override;
+  void take(const planning::MarkerAt& marker) override;
 
   const Caps& caps_;
   SendLive send_;

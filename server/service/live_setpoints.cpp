@@ -57,12 +57,22 @@ void LiveSetpoints::flush() {
   size_ = 0;
 }
 
+// Those that come with the last setpoint that was given.
+void LiveSetpoints::put_markers() {
+  const std::uint64_t index = sampler_.given() - 1;
+  while (!markers_.empty() && (sampler_.ended() || setpoint_of(markers_.front(), period_) <= index)) {
+    add_marker(index, markers_.front().marker, *response_.mutable_setpoints());
+    markers_.pop_front();
+  }
+}
+
 void LiveSetpoints::put_settled() {
   while (const auto setpoint = sampler_.next()) {
     if (size_ == 0) columns_.begin(*response_.mutable_setpoints(), columns_.batch_size());
     columns_.set(size_, *setpoint);
     if (places_) columns_.set(size_, sampler_.ended() ? places_->end() : places_->next());
     ++size_;
+    put_markers();
     if (size_ == columns_.batch_size()) flush();
   }
 }

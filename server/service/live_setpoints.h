@@ -5,11 +5,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 
 #include "server/motion/live_places.h"
 #include "server/motion/live_sampler.h"
+#include "server/planning/marker.h"
 #include "server/service/setpoint_columns.h"
 
 namespace kcs::service {
@@ -27,6 +29,8 @@ class LiveSetpoints {
   void begin(const motion::Vector& start);
   // The end of the next segment of the path: before the phases that follow it.
   void add(const motion::Vector& segment_end);
+  // The next marker: before the phase during which it is due.
+  void add(const planning::MarkerAt& marker) { markers_.push_back(marker); }
   // The next phase of the motion. Throws planning::InvalidInput where the setpoints become too many.
   void add(const motion::Phase& phase);
   // Sends what is there.
@@ -36,11 +40,13 @@ class LiveSetpoints {
 
  private:
   void put_settled();
+  void put_markers();
 
   SetpointColumns columns_;
   double period_;
   motion::LiveSampler sampler_;
   std::optional<motion::LivePlaces> places_;  // if they are wanted
+  std::deque<planning::MarkerAt> markers_;    // that are due
   SendLive send_;
   v1::PlanLiveResponse response_;  // its batch is kept for its memory
   std::uint64_t size_ = 0;         // of the batch

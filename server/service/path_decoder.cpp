@@ -45,6 +45,7 @@ const std::vector<planning::Segment>& PathDecoder::decode(const v1::PathChunk& c
   }
   violations.refuse();
   decode_stops(chunk, points, violations);
+  decode_markers(chunk, points, violations);
   violations.refuse();
   points_ += static_cast<std::uint64_t>(points);
   return segments_;
@@ -123,21 +124,53 @@ void PathDecoder::decode_stops(const v1::PathChunk& chunk, int points, Violation
     }
     if (!violations.check_range(field + ".dwell_s", stop.dwell_s(), 0, range::kMaxDwell, "s")) continue;
     if (points_ + stop.point() == 0) {
-      // The tool rests at the start anyway. To stay there is a segment of no length.
-      if (stop.dwell_s() > 0) {
-        segments_.insert(segments_.begin(), {.end = start_,
-                                             .feed = std::numeric_limits<double>::infinity(),
-                                             .tolerance = options_.tolerance,
-                                             .dwell = stop.dwell_s(),
-                                             .stop = true});
-      }
+      if (stop.dwell_s() > 0) stay_at_start().dwell = stop.dwell_s();  // the tool rests there anyway
       continue;
     }
-    planning::Segment& segment = segments_[segments_.size() - static_cast<std::size_t>(points) + stop.point()];
+    planning::Segment& segment = segment_to(stop.point(), points);
     if (segment.stop) violations.add(field + ".point", fmt::format("{} has a stop already: give one", stop.point()));
     segment.stop = true;
     segment.dwell = stop.dwell_s();
   }
+}
+
+void PathDecoder::decode_markers(const v1::PathChunk& chunk, int points, Violations& violations) {
+  for (int i = 0; i < chunk.markers_size() && !violations.full(); ++i) {
+    const v1::PathMarker& entry = chunk.markers(i);
+    const std::string field = fmt::format("path.markers[{}]", i);
+    if (entry.point() >= static_cast<std::uint32_t>(points)) {
+      violations.add(field + ".point", fmt::format("is {} in a chunk of {} points: count from 0 within the chunk",
+                                                   entry.point(), points));
+      continue;
+    }
+    const int kind = entry.marker().kind();
+    if (kind < v1::MARKER_KIND_SPINDLE_CLOCKWISE || kind > v1::MARKER_KIND_COOLANT_OFF) {
+      violations.add(field + ".marker.kind", fmt::format("{} is nothing to switch: give a command for spindle or "
+                                                         "coolant; dwells are stops",
+                                                         kind));
+      continue;
+    }
+    if (!violations.check_range(field + ".marker.value", entry.marker().value(), 0, range::kMaxSpindleSpeed, "1/min")) {
+      continue;
+    }
+    planning::Segment& segment = points_ + entry.point() == 0 ? stay_at_start() : segment_to(entry.point(), points);
+    if (segment.marker.kind != planning::MarkerKind::kNone) {
+      violations.add(field + ".point", fmt::format("{} has a marker already: give the point again", entry.point()));
+    }
+    segment.marker = {.speed = static_cast<float>(entry.marker().value() + 0.0),
+                      .kind = static_cast<planning::MarkerKind>(kind)};
+  }
+}
+
+// To do something at the start is a segment of no length.
+planning::Segment& PathDecoder::stay_at_start() {
+  if (segments_.empty() || segments_.front().feed != std::numeric_limits<double>::infinity()) {
+    segments_.insert(segments_.begin(), {.end = start_,
+                                         .feed = std::numeric_limits<double>::infinity(),
+                                         .tolerance = options_.tolerance,
+                                         .stop = true});
+  }
+  return segments_.front();
 }
 
 }  // namespace kcs::service

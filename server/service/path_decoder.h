@@ -34,6 +34,12 @@ class PathDecoder {
   planning::Vector decode_point(const v1::PathChunk& chunk, int point, Violations& violations) const;
   planning::Segment decode_segment(const v1::PathChunk& chunk, int point, Violations& violations) const;
   void decode_stops(const v1::PathChunk& chunk, int points, Violations& violations);
+  void decode_markers(const v1::PathChunk& chunk, int points, Violations& violations);
+  planning::Segment& stay_at_start();
+  // That ends on a point of the chunk that is not the start.
+  planning::Segment& segment_to(std::uint32_t point, int points) {
+    return segments_[segments_.size() - static_cast<std::size_t>(points) + point];
+  }
 
   const jobs::RequestOptions& options_;
   const std::uint64_t max_points_;

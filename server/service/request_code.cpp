@@ -33,9 +33,16 @@ class ChunkWriter {
     chunk_->add_tolerance_mm(segment.tolerance);
     if (has_line) chunk_->add_line(segment.line);
     if (segment.stop) stay(segment.dwell);
+    mark(segment.marker);
   }
 
-  // On the last point.
+  // These are for the last point.
+  void mark(const planning::Marker& marker) {
+    if (marker.kind == planning::MarkerKind::kNone) return;
+    v1::PathMarker& entry = *chunk_->add_markers();
+    entry.set_point(static_cast<std::uint32_t>(chunk_->feed_mm_s_size() - 1));
+    encode_marker(marker, *entry.mutable_marker());
+  }
   void stay(double dwell) {
     v1::Stop& stop = *chunk_->add_stops();
     stop.set_point(static_cast<std::uint32_t>(chunk_->feed_mm_s_size() - 1));
@@ -57,16 +64,19 @@ class ChunkWriter {
   bool has_lines_ = false;
 };
 
-// A dwell at the start comes as a segment of no length, without a feed: see PathDecoder.
-bool dwells_at_start(const planning::Toolpath& path) {
+// What happens at the start comes as a segment of no length, without a feed: see PathDecoder.
+bool stays_at_start(const planning::Toolpath& path) {
   return !path.segments.empty() && std::isinf(path.segments.front().feed);
 }
 
 void write_points(const planning::Toolpath& path, ChunkWriter writer) {
   writer.start(path.start);
-  std::size_t first = 0;
-  if (dwells_at_start(path)) writer.stay(path.segments[first++].dwell);
-  for (std::size_t i = first; i < path.segments.size(); ++i) writer.add(path.segments[i]);
+  const bool stays = stays_at_start(path);
+  if (stays) {
+    writer.stay(path.segments[0].dwell);
+    writer.mark(path.segments[0].marker);
+  }
+  for (std::size_t i = stays ? 1 : 0; i < path.segments.size(); ++i) writer.add(path.segments[i]);
 }
 
 }  // namespace

@@ -2,6 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "server/service/encode.h"
+
 namespace kcs::service {
 namespace {
 
@@ -43,6 +48,7 @@ void SetpointColumns::begin(v1::SetpointBatch& batch, std::uint64_t size) {
   velocity_ = columns(batch.mutable_velocity_mm_s(), has_velocity_);
   acceleration_ = columns(batch.mutable_acceleration_mm_s2(), has_acceleration_);
   jerk_ = columns(batch.mutable_jerk_mm_s3(), has_jerk_);
+  batch.clear_markers();
   if (has_path_position_) path_position_ = resized(*batch.mutable_path_position_mm(), static_cast<int>(size));
   if (has_segment_) segment_ = resized(*batch.mutable_segment(), static_cast<int>(size));
 }
@@ -69,6 +75,17 @@ void SetpointColumns::cut(v1::SetpointBatch& batch, std::uint64_t size) {
   }
   truncate(*batch.mutable_path_position_mm(), static_cast<int>(size));
   truncate(*batch.mutable_segment(), static_cast<int>(size));
+}
+
+std::uint64_t setpoint_of(const planning::MarkerAt& marker, double period) {
+  constexpr double kRounding = 1e-6;  // of a period
+  return static_cast<std::uint64_t>(std::max(0.0, std::ceil(marker.time / period - kRounding)));
+}
+
+void add_marker(std::uint64_t setpoint, const planning::Marker& marker, v1::SetpointBatch& batch) {
+  v1::MarkerAt& entry = *batch.add_markers();
+  entry.set_tick(setpoint);
+  encode_marker(marker, *entry.mutable_marker());
 }
 
 void SetpointColumns::check_batch_size(const std::string& parent, Violations& violations) const {

@@ -10,6 +10,7 @@
 
 #include "server/motion/path.h"
 #include "server/motion/setpoint.h"
+#include "server/planning/marker.h"
 #include "server/service/violations.h"
 
 namespace kcs::service {
@@ -38,7 +39,7 @@ class SetpointColumns {
   // Whether places on the path are wanted.
   bool has_places() const { return has_path_position_ || has_segment_; }
 
-  // Gives `batch` room for `size` setpoints. Giving the same batch again saves allocations.
+  // Gives `batch` room for `size` setpoints, and takes its markers away. Giving the same batch again saves allocations.
   void begin(v1::SetpointBatch& batch, std::uint64_t size);
   // Sets setpoint `index` of the batch, and the place that belongs to it.
   void set(std::uint64_t index, const motion::Setpoint& setpoint);
@@ -63,5 +64,9 @@ class SetpointColumns {
   double* path_position_ = nullptr;
   std::uint64_t* segment_ = nullptr;
 };
+
+// The first setpoint that is not before a marker.
+std::uint64_t setpoint_of(const planning::MarkerAt& marker, double period);
+void add_marker(std::uint64_t setpoint, const planning::Marker& marker, v1::SetpointBatch& batch);
 
 }  // namespace kcs::service

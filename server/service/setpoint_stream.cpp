@@ -34,7 +34,8 @@ std::uint32_t usual_batch_size(const v1::StreamSetpointsRequest& request) {
 
 SetpointStream::SetpointStream(jobs::PlanPointer plan, const v1::StreamSetpointsRequest& request)
     : plan_(std::move(plan)),
-      sampler_(plan_->plan.trajectory, checked_period(*plan_, request.period_s())),
+      period_(checked_period(*plan_, request.period_s())),
+      sampler_(plan_->plan.trajectory, period_),
       columns_(request, "", plan_->options.planning.limits.axes, usual_batch_size(request)),
       next_(request.first_index()) {
   Violations violations;
@@ -47,7 +48,7 @@ SetpointStream::SetpointStream(jobs::PlanPointer plan, const v1::StreamSetpoints
   }
   violations.refuse();
   const planning::Plan& kept = plan_->plan;
-  if (columns_.has_places()) places_.emplace(kept.trajectory, kept.path, kept.milestones, request.period_s());
+  if (columns_.has_places()) places_.emplace(kept.trajectory, kept.path, kept.milestones, period_);
 }
 
 bool SetpointStream::next(v1::SetpointBatch& batch) {
@@ -58,9 +59,23 @@ bool SetpointStream::next(v1::SetpointBatch& batch) {
   for (std::uint64_t i = 0; places_ && i < size; ++i) columns_.set(i, places_->at(next_ + i));
   batch.set_first_index(next_);
   batch.set_setpoint_count(sampler_.count());
+  add_markers(size, batch);
   next_ += size;
   batch.set_end_of_path(next_ == sampler_.count());
   return true;
+}
+
+// Those that come with the next setpoints.
+void SetpointStream::add_markers(std::uint64_t size, v1::SetpointBatch& batch) const {
+  const auto setpoint = [this](const planning::MarkerAt& marker) {
+    return std::min(setpoint_of(marker, period_), sampler_.count() - 1);
+  };
+  const std::vector<planning::MarkerAt>& markers = plan_->plan.markers;
+  auto marker = std::partition_point(markers.begin(), markers.end(),
+                                     [&](const planning::MarkerAt& it) { return setpoint(it) < next_; });
+  for (; marker != markers.end() && setpoint(*marker) < next_ + size; ++marker) {
+    add_marker(setpoint(*marker), marker->marker, batch);
+  }
 }
 
 }  // namespace kcs::service

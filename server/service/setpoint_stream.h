@@ -23,7 +23,10 @@ class SetpointStream {
   bool next(v1::SetpointBatch& batch);
 
  private:
+  void add_markers(std::uint64_t size, v1::SetpointBatch& batch) const;
+
   jobs::PlanPointer plan_;
+  double period_;  // s
   motion::Sampler sampler_;
   SetpointColumns columns_;
   std::optional<motion::PlaceSampler> places_;  // if they are wanted

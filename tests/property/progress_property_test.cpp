@@ -122,6 +122,7 @@ class LiveComparison : public planning::PlanReceiver {
     compare();
   }
   void take(const planning::Corner& /*corner*/) override {}
+  void take(const planning::MarkerAt& /*marker*/) override {}
 
  private:
   void compare() {

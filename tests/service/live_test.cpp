@@ -32,7 +32,7 @@ constexpr std::string_view kProgram =
     "G3 X30 Y40 I-10\n"
     "G4 P0.25\n"
     "G1 X0\n"
-    "M7 (has no effect)\n"
+    "M7\n"
     "#<r>=1\n"
     "o1 while [#<r> LT 9]\n"
     "G1 X#<r> Y0\n"
@@ -105,6 +105,19 @@ std::vector<std::pair<double, std::uint64_t>> places(const std::vector<v1::Setpo
   return result;
 }
 
+// What is switched, and when.
+std::vector<std::string> markers(const std::vector<v1::SetpointBatch>& batches) {
+  std::vector<std::string> result;
+  for (const v1::SetpointBatch& batch : batches) {
+    for (const v1::MarkerAt& marker : batch.markers()) {
+      EXPECT_GE(marker.tick(), batch.first_index());
+      EXPECT_LT(marker.tick(), batch.first_index() + static_cast<std::uint64_t>(batch.position_mm(0).values_size()));
+      result.push_back(marker.ShortDebugString());
+    }
+  }
+  return result;
+}
+
 class Live : public ::testing::Test {
  protected:
   // That the messages give the same as a stored plan of `whole`.
@@ -131,6 +144,8 @@ class Live : public ::testing::Test {
       }
     }
     EXPECT_EQ(places(answer.setpoints), places(expected));
+    EXPECT_EQ(markers(answer.setpoints), markers(expected));
+    EXPECT_EQ(markers(expected).size(), stored.message.summary().marker_count());
     expect_consecutive(answer.setpoints, output);
     EXPECT_EQ(answer.setpoints.back().setpoint_count(), expected.back().setpoint_count());
     ASSERT_EQ(answer.corners.size(), corners.size());

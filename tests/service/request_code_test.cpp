@@ -76,6 +76,13 @@ v1::PathChunk random_chunk(Random& random, std::uint32_t axes, bool is_first, bo
     stop.set_point(point);
     stop.set_dwell_s(random.one_of({0.0, 1e6, random.uniform(0, 10)}));
   }
+  for (std::uint32_t point = 0; point < points; ++point) {
+    if (!random.chance(0.2)) continue;
+    v1::PathMarker& marker = *chunk.add_markers();
+    marker.set_point(point);
+    marker.mutable_marker()->set_kind(static_cast<v1::MarkerKind>(1 + random.bits() % 6));
+    marker.mutable_marker()->set_value(random.one_of({0.0, -0.0, 1e6, random.uniform(0, 1e5)}));
+  }
   return chunk;
 }
 

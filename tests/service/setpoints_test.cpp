@@ -246,5 +246,57 @@ TEST_F(Setpoints, CornersAreToldInTheOrderOfThePath) {
   EXPECT_EQ(corners.message[1].point_mm(2), 2);
 }
 
+TEST(Markers, ComeWithTheirSetpointHoweverTheStreamIsCut) {
+  TestServer server;
+  v1::PathChunk chunk = path({0, 0, 10, 0, 20, 0, 20, 10});
+  for (std::uint32_t point = 0; point < 4; ++point) {
+    v1::PathMarker& marker = *chunk.add_markers();
+    marker.set_point(point);
+    marker.mutable_marker()->set_kind(v1::MARKER_KIND_SPINDLE_CLOCKWISE);
+    marker.mutable_marker()->set_value(1000 + point);
+  }
+  const auto plan = server.create({request(options()), request(chunk)});
+  ASSERT_TRUE(plan.status.ok()) << plan.status.error_message();
+  EXPECT_EQ(plan.message.summary().marker_count(), 4u);
+  EXPECT_EQ(plan.message.summary().exact_stop_count(), 0u);
+  for (const std::uint32_t size : {1u, 7u, 32768u}) {
+    auto asked = setpoints(plan.message.name(), 0.001);
+    asked.set_batch_size(size);
+    std::vector<double> speeds;
+    for (const v1::SetpointBatch& batch : server.stream(asked).message) {
+      for (const v1::MarkerAt& it : batch.markers()) {
+        speeds.push_back(it.marker().value());
+        ASSERT_GE(it.tick(), batch.first_index());
+        const auto row = static_cast<int>(it.tick() - batch.first_index());
+        ASSERT_LT(row, batch.position_mm(0).values_size());
+        // 100 mm/s: no farther on than one setpoint, and the corner is cut by some micrometres.
+        const double x = batch.position_mm(0).values(row), y = batch.position_mm(1).values(row);
+        EXPECT_NEAR(x + y, 10 * (it.marker().value() - 1000), 0.15) << size;
+      }
+    }
+    EXPECT_EQ(speeds, (std::vector<double>{1000, 1001, 1002, 1003})) << size;
+  }
+}
+
+TEST(Markers, OfPointsAreRefusedWithTheirField) {
+  TestServer server;
+  const auto refusal = [&server](std::uint32_t point, v1::MarkerKind kind, double speed, int times) {
+    v1::PathChunk chunk = path({0, 0, 10, 0});
+    for (int i = 0; i < times; ++i) {
+      v1::PathMarker& marker = *chunk.add_markers();
+      marker.set_point(point);
+      marker.mutable_marker()->set_kind(kind);
+      marker.mutable_marker()->set_value(speed);
+    }
+    return server.create({request(options()), request(chunk)}).status.error_message();
+  };
+  EXPECT_EQ(refusal(1, v1::MARKER_KIND_FLOOD_ON, 0, 1), "");
+  EXPECT_NE(refusal(2, v1::MARKER_KIND_FLOOD_ON, 0, 1).find("path.markers[0].point"), std::string::npos);
+  EXPECT_NE(refusal(1, v1::MARKER_KIND_DWELL_BEGINS, 0, 1).find("path.markers[0].marker.kind"), std::string::npos);
+  EXPECT_NE(refusal(1, v1::MARKER_KIND_SPINDLE_CLOCKWISE, -1, 1).find("path.markers[0].marker.value"),
+            std::string::npos);
+  EXPECT_NE(refusal(1, v1::MARKER_KIND_FLOOD_ON, 0, 2).find("path.markers[1].point"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kcs::service::test

@@ -57,7 +57,7 @@ RTAPI_MP_STRING(group, "group that may open the shared memory; empty: that of th
 static int axes = 3;
 RTAPI_MP_INT(axes, "2 or 3");
 
-// MarkerKind in proto/kcs/v1/machine.proto.
+// MarkerKind in proto/kcs/v1/planning.proto.
 enum { SPINDLE_CLOCKWISE = 1, SPINDLE_COUNTERCLOCKWISE, SPINDLE_OFF, MIST_ON, FLOOD_ON, COOLANT_OFF };
 
 struct axis_pins {

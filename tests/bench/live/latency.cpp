@@ -20,6 +20,7 @@ class Notice : public planning::PlanReceiver {
   void take(const planning::Vector&) override {}
   void take(const motion::Phase&) override { moved_ = true; }
   void take(const planning::Corner&) override {}
+  void take(const planning::MarkerAt&) override {}
   bool moved() const { return moved_; }
 
  private:

@@ -27,6 +27,7 @@ class Received : public PlanReceiver {
   void take(const Vector& segment_end) override { ends.push_back(segment_end); }
   void take(const Phase& phase) override { phases.push_back(phase); }
   void take(const Corner& corner) override { corners.push_back(corner); }
+  void take(const MarkerAt& /*marker*/) override {}
 
   std::vector<Vector> ends;
   std::vector<Phase> phases;
