@@ -17,9 +17,8 @@ struct BatchMaker::Care {
   static constexpr std::array<Care, 4> all() { return {{{0.004, 0.98}, {0.002, 0.96}, {0.001, 0.93}, {0.0005, 0.9}}}; }
 };
 
-BatchMaker::BatchMaker(const motion::Trajectory& trajectory, const motion::AxisLimits& limits,
-                       const BatchOptions& options)
-    : limits_(limits), options_(options), plan_(trajectory) {}
+BatchMaker::BatchMaker(const planning::Plan& plan, const motion::AxisLimits& limits, const BatchOptions& options)
+    : limits_(limits), options_(options), plan_(plan.trajectory), markers_(plan.markers) {}
 
 std::optional<Batch> BatchMaker::next(const ClockState& from, double rate) {
   plan_.drop_before(from.plan_time);
@@ -30,7 +29,7 @@ std::optional<Batch> BatchMaker::next(const ClockState& from, double rate) {
   for (const Care& care : Care::all()) {
     if (auto course = stop(from, care)) {
       const ClockCourse tail = course->cut(duration());
-      return batch(*course, tail);
+      return batch(from, *course, tail);
     }
   }
   return {};
@@ -40,7 +39,7 @@ std::optional<Batch> BatchMaker::next(const ClockState& from, double rate, const
   const auto course = lead(from, rate, care);
   if (!course) return {};
   const auto tail = stop(course->end(), care);
-  return tail ? std::optional(batch(*course, *tail)) : std::nullopt;
+  return tail ? std::optional(batch(from, *course, *tail)) : std::nullopt;
 }
 
 std::optional<ClockCourse> BatchMaker::lead(const ClockState& from, double rate, const Care& care) {
@@ -74,21 +73,37 @@ bool BatchMaker::verified(const ClockCourse& course) {
                      [&](const ClockPhase& stretch) { return verify(plan_, stretch, limits_).empty(); });
 }
 
-Batch BatchMaker::batch(const ClockCourse& course, const ClockCourse& tail) {
-  Batch made{.positions = sample(course, options_.setpoints), .end = course.end()};
+// The first `count` times end exactly where what comes next goes on; none is beyond, neither by rounding nor because
+// the clock runs on after the plan's end.
+void BatchMaker::settle(std::vector<double>& times, std::size_t count, double end) {
+  for (std::size_t i = 0; i < count; ++i) times[i] = std::min(times[i], end);
+  times[count - 1] = end;
+}
+
+Batch BatchMaker::batch(const ClockState& from, const ClockCourse& course, const ClockCourse& tail) {
+  MarkedCourse way{.from = from.plan_time};
+  Batch made{.positions = sample(course, options_.setpoints, way.times), .end = course.end()};
   made.end_of_plan = has_ended(made.end);
   if (made.end_of_plan) {
     made.end = {plan_.duration(), 0, 0};
     while (made.positions.size() > 1 && made.positions.end()[-2] == made.positions.back()) made.positions.pop_back();
+    way.times.resize(made.positions.size());
   } else {
-    made.tail = sample(tail, static_cast<std::size_t>(std::ceil(tail.duration() / options_.period * (1 - 1e-12))));
+    const double periods = tail.duration() / options_.period;
+    made.tail = sample(tail, static_cast<std::size_t>(std::ceil(periods * (1 - 1e-12))), way.times);
   }
   made.tail_end = made.end_of_plan ? plan_.duration() : std::min(tail.end().plan_time, plan_.duration());
+  way.setpoints = made.positions.size();
+  way.to_end = made.end_of_plan;
+  settle(way.times, way.setpoints, made.end.plan_time);
+  if (!made.tail.empty()) settle(way.times, way.times.size(), made.tail_end);
+  made.markers = markers_on(way, markers_);
   return made;
 }
 
-// A setpoint each period after the start; beyond the course's end it rests.
-std::vector<motion::Vector> BatchMaker::sample(const ClockCourse& course, std::size_t count) {
+// A setpoint each period after the start; beyond the course's end it rests. Adds the plan's time at each to `times`.
+std::vector<motion::Vector> BatchMaker::sample(const ClockCourse& course, std::size_t count,
+                                               std::vector<double>& times) {
   std::vector<motion::Vector> positions;
   positions.reserve(count);
   auto stretch = course.stretches().begin();
@@ -97,7 +112,8 @@ std::vector<motion::Vector> BatchMaker::sample(const ClockCourse& course, std::s
     const double time = static_cast<double>(i) * options_.period;
     while (stretch != course.stretches().end() && time > start + stretch->duration) start += (stretch++)->duration;
     const bool beyond = stretch == course.stretches().end();
-    positions.push_back(position(plan_, beyond ? course.end().plan_time : stretch->at(time - start).plan_time));
+    times.push_back(beyond ? course.end().plan_time : stretch->at(time - start).plan_time);
+    positions.push_back(position(plan_, times.back()));
   }
   return positions;
 }

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "server/motion/limits.h"
-#include "server/motion/trajectory.h"
+#include "server/planning/plan.h"
+#include "server/runs/batch_markers.h"
 #include "server/runs/clock_course.h"
 #include "server/runs/plan_window.h"
 
@@ -26,6 +27,7 @@ struct Batch {
   ClockState end;                         // at the last setpoint
   double tail_end = 0;                    // where in the plan the tail comes to rest, s
   bool end_of_plan = false;               // the last setpoint is the end of the path
+  std::vector<BatchMarker> markers;       // in the order of the setpoints
 };
 
 // Batches of one plan for one machine. A batch depends on the plan, the state that it goes on from and the rate alone:
@@ -33,8 +35,8 @@ struct Batch {
 // the plan, exactly (paced_motion.h). For one thread.
 class BatchMaker {
  public:
-  // The trajectory must outlive it. limits: those that it was planned with.
-  BatchMaker(const motion::Trajectory& trajectory, const motion::AxisLimits& limits, const BatchOptions& options);
+  // The plan must outlive it. limits: those that it was made with.
+  BatchMaker(const planning::Plan& plan, const motion::AxisLimits& limits, const BatchOptions& options);
 
   // The next batch, on the way to `rate` (≥ 0). Where none is found, and then the pace was above the plan's, it follows
   // the way to rest. Nothing if there is no such way within the tail's capacity; that does not happen behind a batch.
@@ -47,14 +49,16 @@ class BatchMaker {
   std::optional<ClockCourse> stop(const ClockState& from, const Care& care);
   double step(const Care& care) const;
   bool verified(const ClockCourse& course);
-  Batch batch(const ClockCourse& course, const ClockCourse& tail);
-  std::vector<motion::Vector> sample(const ClockCourse& course, std::size_t count);
+  Batch batch(const ClockState& from, const ClockCourse& course, const ClockCourse& tail);
+  static void settle(std::vector<double>& times, std::size_t count, double end);
+  std::vector<motion::Vector> sample(const ClockCourse& course, std::size_t count, std::vector<double>& times);
   double duration() const { return static_cast<double>(options_.setpoints) * options_.period; }
   bool has_ended(const ClockState& state) const { return state.plan_time >= plan_.duration(); }
 
   motion::AxisLimits limits_;
   BatchOptions options_;
   PlanWindow plan_;
+  const std::vector<planning::MarkerAt>& markers_;
 };
 
 }  // namespace kcs::runs

@@ -178,7 +178,7 @@ void Machine::start_feed() {
   started_ = false;
   orders_.clear();
   run_->state = RunState::kWaiting;
-  feed_.emplace(plan_->plan.trajectory, plan_->options.planning.limits, profile_.feed);
+  feed_.emplace(plan_->plan, plan_->options.planning.limits, profile_.feed);
   feed_->set_rate(run_->rate);
   resumed_branch_ = 0;
   if (report_.run != run_->name) {

@@ -43,9 +43,9 @@ struct NumberedBatch {
 // from what the machine says of its position another feed, on another server, goes on. For one thread at a time.
 class RunFeed {
  public:
-  // The trajectory must outlive it.
-  RunFeed(const motion::Trajectory& trajectory, const motion::AxisLimits& limits, const FeedOptions& options)
-      : options_(options), batches_(trajectory, limits, options.batch) {}
+  // The plan must outlive it.
+  RunFeed(const planning::Plan& plan, const motion::AxisLimits& limits, const FeedOptions& options)
+      : options_(options), batches_(plan, limits, options.batch) {}
 
   // Begins, or begins anew, where the machine is.
   void go_on_from(const MachinePosition& position);

@@ -174,6 +174,11 @@ class OrderEncoder {
     encode_clock(batch.batch.end, *message.mutable_end());
     message.set_tail_end_s(batch.batch.tail_end);
     message.set_end_of_plan(batch.batch.end_of_plan);
+    for (const runs::BatchMarker& due : batch.batch.markers) {
+      v1::MarkerAt& marker = *message.add_markers();
+      marker.set_tick(batch.begin.tick + due.setpoint);
+      encode_marker(due.marker, *marker.mutable_marker());
+    }
   }
 
  private:

@@ -24,13 +24,14 @@ class Run {
  public:
   Run(const Case& problem, std::uint64_t seed)
       : random_(seed),
-        plan_(planning::plan(problem.path, problem.options)),
+        plan_(planning::plan(with_markers(problem.path), problem.options)),
         period_(std::pow(10, uniform(-4, -2))),
         window_(plan_.trajectory),
         state_{.plan_time = chance(0.3) ? 0 : uniform(0, plan_.trajectory.duration())},
         drives_(problem.options.limits, period_, runs::position(window_, state_.plan_time)),
-        batches_(plan_.trajectory, problem.options.limits,
+        batches_(plan_, problem.options.limits,
                  {.period = period_, .setpoints = static_cast<std::size_t>(uniform(1, 40)), .tail_capacity = 100'000}) {
+    for (const planning::MarkerAt& it : plan_.markers) next_marker_ += it.time < state_.plan_time ? 1 : 0;
   }
 
   void go() {
@@ -42,7 +43,7 @@ class Run {
     }
   }
 
-  std::uint64_t tails = 0;
+  std::uint64_t tails = 0, markers = 0;
 
  private:
   double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
@@ -54,6 +55,7 @@ class Run {
     for (const Vector& position : batch->positions) drives_.take(position);
     ASSERT_GE(batch->end.plan_time, state_.plan_time);
     ASSERT_GE(batch->tail_end, batch->end.plan_time);
+    take_markers(*batch, stop);
     expect_at(batch->end.plan_time);
     state_ = batch->end;
     ended_ = batch->end_of_plan;
@@ -61,11 +63,40 @@ class Run {
     for (const Vector& position : batch->tail) stopping.take(position);
     stopping.rest();
     ++tails;
-    if (!stop) return;
+    if (!stop || ended_) return;
     drives_ = stopping;
     state_ = {batch->tail_end, 0, 0};
     expect_at(state_.plan_time);
-    ended_ = false;
+  }
+
+  planning::Toolpath with_markers(planning::Toolpath path) {
+    for (float speed = 1; speed <= 5; ++speed) {
+      auto& segment = path.segments[random_() % path.segments.size()];
+      segment.marker = {.speed = speed, .kind = planning::MarkerKind::kSpindleClockwise};
+      segment.stop = segment.stop || chance(0.2);
+    }
+    return path;
+  }
+
+  // Each marker comes once, in order, where the plan has it.
+  void take_markers(const Batch& batch, bool stops) {
+    if (plan_.markers.size() > runs::kMostMarkers) return;  // some may be left out
+    std::size_t setpoint = 0;
+    for (const runs::BatchMarker& due : batch.markers) {
+      const bool in_tail = due.setpoint >= batch.positions.size();
+      if (in_tail && !stops) continue;
+      ASSERT_LT(next_marker_, plan_.markers.size());
+      const planning::MarkerAt& expected = plan_.markers[next_marker_++];
+      ASSERT_EQ(due.marker, expected.marker);
+      ASSERT_GE(due.setpoint, setpoint);
+      setpoint = due.setpoint;
+      ASSERT_LE(expected.time, in_tail ? batch.tail_end : batch.end.plan_time);
+      ASSERT_GE(expected.time, in_tail ? batch.end.plan_time : state_.plan_time);
+    }
+    const double end = stops ? batch.tail_end : batch.end.plan_time;
+    const bool is_left = next_marker_ < plan_.markers.size();
+    ASSERT_TRUE(!is_left || (!batch.end_of_plan && plan_.markers[next_marker_].time >= end)) << "one was lost";
+    markers += batch.markers.size();
   }
 
   void expect_at(double plan_time) {
@@ -83,6 +114,7 @@ class Run {
   runs::BatchMaker batches_;
   double rate_ = 1;
   bool ended_ = false;
+  std::size_t next_marker_ = 0;
 };
 
 // From the highest speed of each axis. Among random machines are some that would need hours.
@@ -94,7 +126,7 @@ double longest_stop(const motion::AxisLimits& limits) {
 
 void run(Case (*make)(std::uint64_t seed), std::uint64_t count) {
   constexpr double kMostStop = 1;  // s
-  std::uint64_t tails = 0;
+  std::uint64_t tails = 0, markers = 0;
   for (std::uint64_t seed = 0, taken = 0; taken < count; ++seed) {
     const Case problem = make(seed);
     if (longest_stop(problem.options.limits) > kMostStop) continue;
@@ -103,8 +135,10 @@ void run(Case (*make)(std::uint64_t seed), std::uint64_t count) {
     Run one(problem, seed);
     one.go();
     tails += one.tails;
+    markers += one.markers;
     if (testing::Test::HasFailure()) return;
   }
+  EXPECT_GT(markers, 0u);
   std::printf("%llu stop tails\n", static_cast<unsigned long long>(tails));
 }
 

@@ -36,8 +36,9 @@ class MachineRunsTest : public ::testing::Test {
     stub_ = v1::MachineService::NewStub(server_->channel());
   }
 
-  std::string make_plan(const v1::PathChunk& path = zigzag(30)) {
-    const auto plan = server_->create({request(fitting()), request(path)});
+  std::string make_plan(const v1::PathChunk& path = zigzag(30)) { return make_plan(request(path)); }
+  std::string make_plan(const v1::CreatePlanRequest& path) {
+    const auto plan = server_->create({request(fitting()), path});
     EXPECT_TRUE(plan.status.ok()) << plan.status.error_message();
     cycle_time_ = plan.message.summary().cycle_time_s();
     end_ = {plan.message.summary().end_mm(0), plan.message.summary().end_mm(1), 0};
@@ -128,6 +129,40 @@ TEST_F(MachineRunsTest, StopOnThePathAndGoOnFromThere) {
   while (gateway.play()) {
   }
   expect_at_end();
+}
+
+// Every 10 mm the spindle turns a bit faster.
+TEST_F(MachineRunsTest, SwitchWhatThePlanSwitchesOnceOverHoldsAndOverrides) {
+  constexpr int kSpeeds = 30;
+  std::string program = "F6000 G1\nM3 S1\n";
+  for (int i = 1; i < kSpeeds; ++i) program += "X" + std::to_string(10 * i) + "\nS" + std::to_string(1 + i) + "\n";
+  const std::string plan = make_plan(gcode(program + "X300\nM30\n"));
+  TestGateway gateway(machine_, server_->channel());
+  begin(plan);
+  for (int stop = 0; stop < 6; ++stop) {
+    for (int i = 0; i < 3 + stop; ++i) ASSERT_TRUE(gateway.play());
+    ASSERT_TRUE(override_feed(stop % 2 == 0 ? 40 : 110).status.ok());
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(gateway.play());
+    ASSERT_TRUE(hold().status.ok());
+    while (gateway.play()) {
+    }
+    expect_state(v1::RUN_STATE_HELD);
+    ASSERT_TRUE(resume().status.ok());
+  }
+  while (gateway.play()) {
+  }
+  expect_at_end();
+  ASSERT_EQ(machine_.switched.size(), kSpeeds + 1);
+  for (int i = 0; i < kSpeeds; ++i) {
+    const v1::MarkerAt& marker = machine_.switched[static_cast<std::size_t>(i)];
+    EXPECT_EQ(marker.marker().kind(), v1::MARKER_KIND_SPINDLE_CLOCKWISE);
+    EXPECT_EQ(marker.marker().value(), 1 + i);
+    ASSERT_LT(marker.tick(), machine_.played.size());
+    // With the first setpoint beyond the place: at 100 mm/s and 10 % more a setpoint is no longer than 0.11 mm.
+    EXPECT_NEAR(machine_.played[marker.tick()].x(), 10 * i + 0.06, 0.061) << i;
+  }
+  EXPECT_EQ(machine_.switched.back().marker().kind(), v1::MARKER_KIND_SPINDLE_OFF);
+  EXPECT_EQ(machine_.switched.back().tick() + 1, machine_.played.size());
 }
 
 TEST_F(MachineRunsTest, StarveOntoTheirPathWhenTheServerIsGone) {

@@ -157,7 +157,11 @@ void TestGateway::play(const google::protobuf::RepeatedPtrField<v1::Column>& col
     machine_.played.push_back(position);
   }
   v1::RunPosition& where = *machine_.report.mutable_run();
-  where.set_ticks_played(where.ticks_played() + static_cast<std::uint64_t>(count));
+  const std::uint64_t first = where.ticks_played(), end = first + static_cast<std::uint64_t>(count);
+  for (const v1::MarkerAt& marker : machine_.playing.markers()) {
+    if (marker.tick() >= first && marker.tick() < end) machine_.switched.push_back(marker);
+  }
+  where.set_ticks_played(end);
   fill(*machine_.report.mutable_position_mm(), machine_.drives.position(), machine_.limits.axes);
   fill(*machine_.report.mutable_actual_mm(), machine_.drives.position(), machine_.limits.axes);
 }

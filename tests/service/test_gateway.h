@@ -29,6 +29,7 @@ struct TestMachine {
   motion::AxisLimits limits;
   kcs::test::Drives drives;  // judges what is played
   std::vector<motion::Vector> played;
+  std::vector<v1::MarkerAt> switched;  // with the tick at which it came out
 };
 
 class TestGateway {

@@ -62,7 +62,8 @@ std::optional<std::string> find_damage_in_markers(const v1::MotionBatch& batch) 
   if (batch.markers_size() > KCS_PLAYER_MARKERS) {
     return fmt::format("{} markers; the player takes {}", batch.markers_size(), static_cast<int>(KCS_PLAYER_MARKERS));
   }
-  const std::uint64_t end = batch.first_tick() + static_cast<std::uint64_t>(rows(batch.position_mm()));
+  const auto ticks = static_cast<std::uint64_t>(rows(batch.position_mm()) + rows(batch.tail_mm()));
+  const std::uint64_t end = batch.first_tick() + ticks;
   for (const v1::MarkerAt& marker : batch.markers()) {
     if (marker.tick() >= end) return fmt::format("a marker for tick {}, which is beyond its end", marker.tick());
   }

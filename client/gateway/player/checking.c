@@ -73,7 +73,8 @@ static bool well_formed(const struct kcs_player_batch *batch) {
   if (batch->last > 1 || (batch->last == 1 && batch->tail > 0)) return false;
   if (batch->marker_count > KCS_PLAYER_MARKERS) return false;
   for (uint32_t i = 0; i < batch->marker_count; ++i) {
-    if (batch->markers[i].setpoint >= batch->setpoints || !isfinite(batch->markers[i].value)) return false;
+    if (batch->markers[i].setpoint >= batch->setpoints + batch->tail) return false;
+    if (!isfinite(batch->markers[i].value)) return false;
   }
   return true;
 }

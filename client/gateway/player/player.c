@@ -177,7 +177,6 @@ static void play(struct kcs_player *player, struct kcs_player_output *output) {
   const struct kcs_player_batch *batch = &player->copies[player->current].batch;
   memcpy(player->report.command_mm, batch->position_mm[player->next], sizeof player->report.command_mm);
   for (uint32_t i = 0; i < batch->marker_count; ++i) {
-    /* Markers lie in the batch, not in its tail. */
     if (batch->markers[i].setpoint == player->next) output->markers[output->marker_count++] = batch->markers[i];
   }
   ++player->next;

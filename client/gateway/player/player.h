@@ -76,8 +76,8 @@ struct kcs_player_profile {
 };
 
 struct kcs_player_marker {
-  uint32_t setpoint; /* of the batch, from 0: comes out with it */
-  uint32_t kind;     /* see markers in machine.proto */
+  uint32_t setpoint; /* of the batch and then of its tail, from 0: comes out with it */
+  uint32_t kind;     /* MarkerKind in planning.proto */
   double value;
 };
 

@@ -24,7 +24,7 @@ planning::Plan line(double length) {
 
 TEST(BatchMaker, AtThePlannedPaceGivesThePlansOwnSetpoints) {
   const planning::Plan plan = line(100);
-  BatchMaker maker(plan.trajectory, machine().limits, {});
+  BatchMaker maker(plan, machine().limits, {});
   const auto batch = maker.next({0.2, 1, 0}, 1);
   ASSERT_TRUE(batch);
   ASSERT_EQ(batch->positions.size(), 20);
@@ -42,7 +42,7 @@ TEST(BatchMaker, AtThePlannedPaceGivesThePlansOwnSetpoints) {
 // The shortest stop from the feed under the limits takes feed / acceleration + acceleration / jerk.
 TEST(BatchMaker, StopsNearlyAsFastAsTheLimitsAllow) {
   const planning::Plan plan = line(100);
-  BatchMaker maker(plan.trajectory, machine().limits, {});
+  BatchMaker maker(plan, machine().limits, {});
   const auto batch = maker.next({0.3, 1, 0}, 1);
   ASSERT_TRUE(batch);
   constexpr double kShortest = kFeed / kAcceleration + kAcceleration / kJerk;
@@ -54,7 +54,7 @@ TEST(BatchMaker, StopsNearlyAsFastAsTheLimitsAllow) {
 
 TEST(BatchMaker, EndsOnTheExactEnd) {
   const planning::Plan plan = line(10);
-  BatchMaker maker(plan.trajectory, machine().limits, {});
+  BatchMaker maker(plan, machine().limits, {});
   ClockState state{0, 0, 0};
   std::optional<Batch> batch;
   for (int i = 0; i < 1000 && !(batch && batch->end_of_plan); ++i) {
@@ -69,11 +69,11 @@ TEST(BatchMaker, EndsOnTheExactEnd) {
 
 TEST(BatchMaker, DependsOnTheStateAlone) {
   const planning::Plan plan = line(100);
-  BatchMaker one(plan.trajectory, machine().limits, {});
+  BatchMaker one(plan, machine().limits, {});
   ClockState state{0, 0, 0};
   for (int i = 0; i < 20; ++i) {
     const auto batch = one.next(state, 0.7);
-    BatchMaker other(plan.trajectory, machine().limits, {});
+    BatchMaker other(plan, machine().limits, {});
     const auto again = other.next(state, 0.7);
     ASSERT_TRUE(batch && again);
     EXPECT_EQ(batch->positions, again->positions);
@@ -84,7 +84,7 @@ TEST(BatchMaker, DependsOnTheStateAlone) {
 
 TEST(BatchMaker, MayGoFasterThanPlannedWhereTheLimitsAllowIt) {
   const planning::Plan plan = line(200);
-  BatchMaker maker(plan.trajectory, machine().limits, {});
+  BatchMaker maker(plan, machine().limits, {});
   ClockState state{0, 0, 0};
   double fastest = 0;
   for (int i = 0; i < 40; ++i) {
@@ -98,7 +98,7 @@ TEST(BatchMaker, MayGoFasterThanPlannedWhereTheLimitsAllowIt) {
 
 TEST(BatchMaker, GivesNoBatchThatCannotBeStoppedWithinTheTailsRoom) {
   const planning::Plan plan = line(100);
-  BatchMaker maker(plan.trajectory, machine().limits, {.tail_capacity = 30});
+  BatchMaker maker(plan, machine().limits, {.tail_capacity = 30});
   EXPECT_FALSE(maker.next({0.3, 1, 0}, 1));
 }
 

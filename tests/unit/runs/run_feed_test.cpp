@@ -39,7 +39,7 @@ class RunFeedTest : public ::testing::Test {
   }
 
   const planning::Plan plan_ = line();
-  RunFeed feed_{plan_.trajectory, machine().limits, {.window = 250, .margin = 40}};
+  RunFeed feed_{plan_, machine().limits, {.window = 250, .margin = 40}};
   std::vector<BatchEnd> ends_ = {BatchEnd{}};
 };
 

@@ -208,7 +208,10 @@ INSTANTIATE_TEST_SUITE_P(
                  for (auto& column : *b.mutable_tail_mm()) column.mutable_values()->Resize(5000, 0);
                }},
         Damage{"TailAfterTheEnd", "yet has a stop tail", [](v1::MotionBatch& b) { b.set_end_of_plan(true); }},
-        Damage{"MarkerBeyondTheEnd", "beyond its end", [](v1::MotionBatch& b) { b.add_markers()->set_tick(20); }}),
+        Damage{"MarkerBeyondTheEnd", "beyond its end",
+               [](v1::MotionBatch& b) {
+                 b.add_markers()->set_tick(20 + static_cast<std::uint64_t>(b.tail_mm(0).values_size()));
+               }}),
     [](const auto& kind) { return kind.param.name; });
 
 // Thousands of random batches, commits and ticks: whatever comes, what the player is given is one unbroken row of

@@ -114,6 +114,24 @@ TEST(PlayerCore, PutsMarkersOutAtTheirTick) {
   EXPECT_EQ(work.markers.size(), 6u);
 }
 
+TEST(PlayerCore, PutsMarkersOfATailOutIfItIsPlayed) {
+  PlayerAtWork work;
+  work.switch_on();
+  work.begin_run(1);
+  for (int i = 0; i < 2; ++i) {
+    auto batch = work.next();
+    ASSERT_GT(batch->tail, 3u);
+    batch->marker_count = 1;
+    batch->markers[0] = {.setpoint = batch->setpoints + 3, .kind = 5, .value = 1.0 * i};
+    work.put(*batch);
+  }
+  ASSERT_TRUE(work.tick_until(KCS_PLAYER_STOPPING));
+  EXPECT_TRUE(work.markers.empty());
+  ASSERT_TRUE(work.tick_until(KCS_PLAYER_HELD));
+  ASSERT_EQ(work.markers.size(), 1u);
+  EXPECT_EQ(work.markers[0].value, 1);
+}
+
 TEST(PlayerCore, LeavesTheThirdAxisOfATwoAxisMachineAlone) {
   PlayerAtWork work;
   work.profile.axes = 2;

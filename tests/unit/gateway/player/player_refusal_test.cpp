@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"a_marker_lies_beyond_it", KCS_PLAYER_MALFORMED,
                [](kcs_player_batch& b) {
                  b.marker_count = 1;
-                 b.markers[0].setpoint = b.setpoints;
+                 b.markers[0].setpoint = b.setpoints + b.tail;
                }},
         Damage{"a_marker_is_no_number", KCS_PLAYER_MALFORMED,
                [](kcs_player_batch& b) {
