@@ -7,9 +7,13 @@
 namespace kcs::runs {
 
 void RunFeed::go_on_from(const MachinePosition& position) {
+  // A replacement that came too late, so that the machine did not take it, is made again with more time.
+  if (position.branch != branch_) replacing_from_.reset();
+  replace_ = replacing_from_.has_value();
+  margin_ = std::min(2 * margin_, options_.window);
   branch_ = position.branch;
   sent_.assign(position.ends.begin(), position.ends.end());
-  ended_ = replace_ = false;
+  ended_ = false;
   update(position);
 }
 
@@ -21,6 +25,7 @@ void RunFeed::update(const MachinePosition& position) {
   }
   played_ = position.played;
   committed_ = position.committed;
+  if (replacing_from_ && committed_ > *replacing_from_ + options_.window) replacing_from_.reset();
   while (sent_.size() > 1 && sent_[1].tick <= played_) sent_.pop_front();
   const BatchEnd& before = sent_.front();
   plan_time_ = before.clock.plan_time;
@@ -30,13 +35,15 @@ void RunFeed::update(const MachinePosition& position) {
 }
 
 void RunFeed::set_rate(double rate) {
-  replace_ = replace_ || rate != rate_;
+  if (rate == rate_) return;
+  replace_ = true;
+  margin_ = options_.margin;
   rate_ = rate;
 }
 
 std::optional<NumberedBatch> RunFeed::next() {
   if (sent_.empty()) return {};
-  if (std::exchange(replace_, false)) replace_from(committed_ + options_.margin);
+  if (std::exchange(replace_, false)) replace_from(committed_ + margin_);
   const BatchEnd begin = sent_.back();
   if (ended_ || begin.tick >= played_ + options_.window) return {};
   auto made = batches_.next(begin.clock, rate_);
@@ -50,6 +57,7 @@ std::optional<NumberedBatch> RunFeed::next() {
 void RunFeed::replace_from(std::uint64_t tick) {
   const auto kept = std::find_if(sent_.begin(), sent_.end(), [tick](const BatchEnd& end) { return end.tick >= tick; });
   if (kept == sent_.end() || kept + 1 == sent_.end()) return;
+  replacing_from_ = kept->tick;
   sent_.erase(kept + 1, sent_.end());
   ended_ = false;
 }

@@ -47,7 +47,7 @@ class RunFeed {
   RunFeed(const planning::Plan& plan, const motion::AxisLimits& limits, const FeedOptions& options)
       : options_(options), batches_(plan, limits, options.batch) {}
 
-  // Begins, or begins anew, where the machine is.
+  // Begins, or begins anew, where the machine is. A new pace that has not reached it yet is tried again, later.
   void go_on_from(const MachinePosition& position);
   // Sends nothing until it begins anew.
   void pause() { sent_.clear(); }
@@ -71,8 +71,10 @@ class RunFeed {
   FeedOptions options_;
   BatchMaker batches_;
   double rate_ = 1;
-  bool replace_ = false;  // what was sent for another pace
-  bool ended_ = false;    // the end of the plan was sent
+  bool replace_ = false;                         // what was sent for another pace
+  std::uint64_t margin_ = 0;                     // of the replacement
+  std::optional<std::uint64_t> replacing_from_;  // where the last one began; none once that was long ago
+  bool ended_ = false;                           // the end of the plan was sent
   std::uint64_t branch_ = 0, played_ = 0, committed_ = 0;
   std::deque<BatchEnd> sent_;  // from the last one that was played on; none: it pauses
   double plan_time_ = 0;

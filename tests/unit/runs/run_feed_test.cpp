@@ -63,6 +63,23 @@ TEST_F(RunFeedTest, ReplacesWhatIsNotWithThePlayerWhenThePaceChanges) {
   EXPECT_LT(replaced.front().batch.end.rate, 1);
 }
 
+TEST_F(RunFeedTest, ReplacesAgainWithMoreTimeWhatCameTooLate) {
+  feed_.go_on_from({.ends = {BatchEnd{}}});
+  take();
+  feed_.update(at(40, 100));
+  take();
+  const std::vector<BatchEnd> held = ends_;
+  feed_.set_rate(0.5);
+  take();
+  ends_ = held;  // the machine was at 140 already when that came
+  feed_.go_on_from(at(80, 160));
+  feed_.update(at(80, 160));
+  const auto replaced = take();
+  ASSERT_FALSE(replaced.empty());
+  EXPECT_EQ(replaced.front().begin.tick, 240) << "committed and twice the margin";
+  EXPECT_LT(replaced.front().batch.end.rate, 1);
+}
+
 TEST_F(RunFeedTest, PausesWhenTheMachineHasLeftTheStream) {
   feed_.go_on_from({.ends = {BatchEnd{}}});
   take();
