@@ -8,9 +8,11 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 
+#include "client/sdk/machine_profile.h"
 #include "server/security/token_commands.h"
 #include "server/service/config.h"
 #include "server/service/logging.h"
@@ -75,6 +77,22 @@ int wait_for(const sigset_t& signals) {
   }
 }
 
+// The machines that come with kcs, as the contract has them.
+std::map<std::string, kcs::v1::Machine> shipped_machines() {
+  std::map<std::string, kcs::v1::Machine> machines;
+  for (const auto& [name, text] : kcs::client::shipped_profiles()) {
+    const kcs::client::Machine profile = kcs::client::parse_machine_profile(text, name);
+    kcs::v1::Machine& machine = machines[std::string(name)];
+    machine.set_name(profile.name);
+    machine.set_axes(static_cast<std::uint32_t>(profile.axes));
+    machine.mutable_velocity_mm_s()->Assign(profile.velocity_mm_s.begin(), profile.velocity_mm_s.end());
+    machine.mutable_acceleration_mm_s2()->Assign(profile.acceleration_mm_s2.begin(), profile.acceleration_mm_s2.end());
+    machine.mutable_jerk_mm_s3()->Assign(profile.jerk_mm_s3.begin(), profile.jerk_mm_s3.end());
+    if (profile.rapid_mm_s) machine.set_rapid_mm_s(*profile.rapid_mm_s);
+  }
+  return machines;
+}
+
 [[noreturn]] void serve(const Config& config) {
   const sigset_t signals = block_stop_signals();
   kcs::service::Server server(config.server);
@@ -106,7 +124,7 @@ int main(int argc, char** argv) {
   app.add_option("--database", flags.database,
                  "sqlite, sqlite:FILE, postgresql:CONNINFO or memory: where requests and summaries are kept [sqlite]");
   app.add_option("--http-listen", flags.http_listen,
-                 "HOST:PORT of /metrics, /healthz and /readyz (port 0: any free one); empty: none []");
+                 "HOST:PORT of /metrics, /healthz, /readyz and /v1/plans (port 0: any free one); empty: none []");
   app.add_option("--log-level", flags.log_level, "debug, info, warning, error or off [info]");
   app.add_option("--log-format", flags.log_format, "text or json [text]");
   app.add_flag("--insecure", flags.insecure, "Listen beyond this machine even without TLS, or to everybody");
@@ -117,6 +135,7 @@ int main(int argc, char** argv) {
     if (flags.new_token) return kcs::security::make_token(std::cout, std::cerr), EXIT_SUCCESS;
     if (flags.hash_token) return kcs::security::hash_token(std::cin, std::cout), EXIT_SUCCESS;
     Config config = settings(flags);
+    config.server.machines = shipped_machines();
     config.server.log = kcs::service::set_up_logging(config.log_level, config.server.observe.log_format);
     serve(config);
   } catch (const std::exception& failure) {

@@ -28,6 +28,9 @@ constexpr const char* kPlainText = "text/plain; charset=utf-8";
 // operating system.
 class BoundedThreads final : public httplib::TaskQueue {
  public:
+  explicit BoundedThreads(std::size_t threads)
+      : room_(static_cast<std::ptrdiff_t>(threads + kWaiting)), threads_(threads) {}
+
   void enqueue(std::function<void()> task) override {
     room_.acquire();
     threads_.enqueue([this, task = std::move(task)] {
@@ -38,14 +41,15 @@ class BoundedThreads final : public httplib::TaskQueue {
   void shutdown() override { threads_.shutdown(); }
 
  private:
-  std::counting_semaphore<> room_{kThreads + kWaiting};
-  httplib::ThreadPool threads_{kThreads};
+  std::counting_semaphore<> room_;
+  httplib::ThreadPool threads_;
 };
 
 class BoundedServer final : public httplib::Server {
  public:
-  BoundedServer() {
-    new_task_queue = [] { return std::make_unique<BoundedThreads>().release(); };
+  explicit BoundedServer(const LatePages& pages) : late_path_(pages.path) {
+    const std::size_t threads = kThreads + pages.at_a_time;
+    new_task_queue = [threads] { return std::make_unique<BoundedThreads>(threads).release(); };
     // Unlike the library's own choice this does not share a port that another server listens on.
     set_socket_options([](socket_t socket) {
       const int yes = 1;
@@ -55,27 +59,39 @@ class BoundedServer final : public httplib::Server {
 
  private:
   bool process_and_close_socket(socket_t socket) override {
-    HttpConnection connection(socket, std::chrono::steady_clock::now() + kPatience, kMostRequestBytes);
+    HttpConnection connection(socket, kPatience, kMostRequestBytes);
     bool closed = false;
     try {
-      return process_request(connection, true, closed, nullptr);
+      return process_request(connection, true, closed, [&](httplib::Request& request) { set_up(request, connection); });
     } catch (...) {
       return false;  // whatever the library cannot take ends this connection, not the program
     }
   }
+
+  void set_up(httplib::Request& request, HttpConnection& connection) const {
+    if (late_path_.empty()) return;
+    const bool has_body = request.method == "POST" && request.path == late_path_;
+    if (!has_body && (request.method != "GET" || !request.path.starts_with(late_path_ + "/"))) return;
+    connection.allow_late_answer();
+    if (has_body) connection.allow_body();
+    request.progress = [&connection](std::uint64_t, std::uint64_t) { return connection.client_waits(); };
+  }
+
+  const std::string late_path_;
 };
 
 }  // namespace
 
 struct HttpEndpoint::Parts {
+  explicit Parts(const LatePages& pages) : server(pages) {}
   BoundedServer server;
   std::string address;
   std::thread thread;
 };
 
 HttpEndpoint::HttpEndpoint(const std::string& listen, const Registry& registry, const Readiness& readiness,
-                           const Log& log)
-    : parts_(std::make_unique<Parts>()) {
+                           const Log& log, const LatePages& pages)
+    : parts_(std::make_unique<Parts>(pages)) {
   BoundedServer& server = parts_->server;
   server.Get("/metrics", [&registry](const httplib::Request&, httplib::Response& response) {
     response.set_content(registry.exposition(), kExpositionContentType);
@@ -87,6 +103,7 @@ HttpEndpoint::HttpEndpoint(const std::string& listen, const Registry& registry, 
     response.status = obstacle.empty() ? 200 : 503;
     response.set_content(obstacle.empty() ? "ready\n" : "not ready: " + obstacle + "\n", kPlainText);
   });
+  if (pages.add) pages.add(server);
   server.set_logger([log](const httplib::Request& request, const httplib::Response& response) {
     log.write(spdlog::level::debug, "HTTP request answered",
               {{"method", request.method},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "server/service/peer.h"
 #include "server/service/printable.h"
 #include "server/service/request_id.h"
 #include "server/service/status_details.h"
@@ -77,7 +78,7 @@ void CallRecord::log(const CallEnd& end) const {
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began_;
   observe::LogFields fields = {{"request_id", request_id_},
                                {"method", method_},
-                               {"peer", context_.peer()},
+                               {"peer", peer_of(context_)},
                                {"status", name_of(status.error_code())},
                                {"duration_s", taken.count()}};
   if (!end.reason.empty()) fields["reason"] = end.reason;

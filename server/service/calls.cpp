@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "server/service/peer.h"
+
 namespace kcs::service {
 namespace {
 
@@ -9,7 +11,7 @@ namespace {
 // "ipv4:192.0.2.7:51234" is a client on 192.0.2.7.
 jobs::Client client_of(const security::Identity& caller, const grpc::ServerContext& context) {
   if (!caller.owner.empty()) return caller.owner;
-  const std::string peer = context.peer();
+  const std::string peer = peer_of(context);
   return peer.starts_with("ip") ? peer.substr(0, peer.rfind(':')) : peer;
 }
 

@@ -38,6 +38,8 @@ struct Caps {
   // far it looks, 40,000 changes of direction at the most; a straight line may have any number of segments, 100 bytes
   // each.
   std::uint64_t look_ahead = 200'000;
+  // Requests of plans over HTTP at the same time; each holds two threads beside what its call holds.
+  std::uint64_t http_plans = 8;
   // Machines that are attached at the same time; each holds two threads, and the plan of its run.
   std::uint64_t machines = 100;
 };

@@ -16,6 +16,7 @@ Keys cap_keys(Caps& caps) {
   constexpr std::int64_t kMany = 1'000'000'000'000;
   constexpr std::int64_t kMostCalls = 10'000;  // each may take a thread
   constexpr std::int64_t kMostMessage = 1 << 30;
+  constexpr std::int64_t kMostHttpPlans = 1'000;
   // What goes into the store in one piece, of a GiB.
   constexpr std::int64_t kMostPoints = 20'000'000;
   constexpr std::int64_t kMostGcode = 1 << 30;
@@ -34,6 +35,7 @@ Keys cap_keys(Caps& caps) {
           {"live_streams", whole(caps.live_streams, 1, kMostCalls)},
           {"client_live_streams", whole(caps.client_live_streams, 1, kMostCalls)},
           {"look_ahead", whole(caps.look_ahead, 1, kMany)},
+          {"http_plans", whole(caps.http_plans, 1, kMostHttpPlans)},
           {"machines", whole(caps.machines, 1, kMostCalls)}};
 }
 

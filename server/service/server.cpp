@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "server/http/plan_pages.h"
 #include "server/jobs/plan_cache.h"
 #include "server/jobs/plan_desk.h"
 #include "server/observe/http_endpoint.h"
@@ -78,9 +79,24 @@ grpc::ServerBuilder& configure(grpc::ServerBuilder& builder, const ServerOptions
 }
 
 // Null if nobody asks for it.
-std::unique_ptr<observe::HttpEndpoint> make_http(const std::string& listen, const Observation& observation) {
+std::unique_ptr<observe::HttpEndpoint> make_http(const std::string& listen, const Observation& observation,
+                                                 http::PlanPages& plans) {
   if (listen.empty()) return nullptr;
-  return std::make_unique<observe::HttpEndpoint>(listen, observation.registry, observation.readiness, observation.log);
+  return std::make_unique<observe::HttpEndpoint>(
+      listen, observation.registry, observation.readiness, observation.log,
+      observe::LatePages{.path = http::PlanPages::kPath,
+                         .at_a_time = plans.at_a_time(),
+                         .add = [&plans](httplib::Server& server) { plans.add_to(server); }});
+}
+
+// Over HTTP nobody is let in whom gRPC would not let in.
+http::PlanPages::Options plan_pages_of(const ServerOptions& options) {
+  http::PlanPages::Options pages{
+      .machines = options.machines, .at_a_time = options.caps.http_plans, .answers_network = options.security.insecure};
+  if (!options.security.tls.client_ca.empty()) {
+    pages.closed_because = "this server asks its clients for certificates: call it over gRPC, where they can be shown";
+  }
+  return pages;
 }
 
 }  // namespace
@@ -89,7 +105,8 @@ struct Server::Parts {
   explicit Parts(const ServerOptions& options)
       : caps(options.caps),
         observation{.log = options.log},
-        http(make_http(options.observe.http_listen, observation)),
+        plan_pages(plan_pages_of(options)),
+        http(make_http(options.observe.http_listen, observation, plan_pages)),
         memory(caps.cached_plans, caps.cached_bytes),
         archive(options.store, memory, observation.metrics.store_duration),
         desk(archive, scheduling(caps, thread_count(options.planning_threads)),
@@ -104,7 +121,10 @@ struct Server::Parts {
         credentials(make_credentials(options.security)) {
     add_readings(observation.registry, desk);
   }
-  ~Parts() { http.reset(); }  // it reads from the desk
+  ~Parts() {
+    http.reset();  // it reads from the desk, and calls the server
+    plan_pages.open(nullptr);
+  }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
@@ -115,6 +135,7 @@ struct Server::Parts {
 
   const Caps caps;
   Observation observation;
+  http::PlanPages plan_pages;
   std::unique_ptr<observe::HttpEndpoint> http;  // null if nobody asked for it
   jobs::PlanCache memory;
   Archive archive;
@@ -147,6 +168,7 @@ Server::Server(const ServerOptions& options) {
   } else {
     serve_address(builder, options.listen);
   }
+  parts_->plan_pages.open(in_process_channel());
   grpc::HealthCheckServiceInterface* const health = parts_->server->GetHealthCheckService();
   health->SetServingStatus(v1::PlanningService::service_full_name(), false);
   health->SetServingStatus(v1::MachineService::service_full_name(), false);

@@ -3,9 +3,11 @@
 
 #include <grpcpp/channel.h>
 #include <grpcpp/server_builder.h>
+#include <kcs/v1/planning.pb.h>
 
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -29,6 +31,8 @@ struct ServerOptions {
   ObserveSettings observe;
   SecuritySettings security;
   ConnectionSettings connections;
+  // Machines that requests over HTTP may name.
+  std::map<std::string, v1::Machine> machines;
   // Where it logs to.
   observe::Log log;
 };

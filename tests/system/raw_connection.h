@@ -34,6 +34,16 @@ class RawConnection {
     return is_open_;
   }
 
+  // Waits until the other side takes all of it. False once it has closed the connection.
+  bool send_all(std::string_view bytes) {
+    while (is_open_ && !bytes.empty()) {
+      const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      is_open_ = sent > 0;
+      if (is_open_) bytes.remove_prefix(static_cast<std::size_t>(sent));
+    }
+    return is_open_;
+  }
+
   // Whether the other side closes the connection within this time; what it sends before is dropped.
   bool is_closed_within(std::chrono::milliseconds time) {
     const auto end = std::chrono::steady_clock::now() + time;

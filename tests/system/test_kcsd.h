@@ -27,6 +27,8 @@ class TestKcsd : public KcsdProcess, public TestClient {
     std::string text;
   };
   Page page(const std::string& path) const;
+  // Where it answers over HTTP.
+  const std::string& http_address() const { return http_address_; }
   // What the standard health service says of `service`; nothing if it does not answer.
   std::optional<bool> is_serving(const std::string& service = "") const;
 
