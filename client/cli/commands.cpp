@@ -9,7 +9,6 @@
 #include <iostream>
 
 #include "client/cli/corners_table.h"
-#include "client/cli/csv.h"
 #include "client/cli/gnuplot.h"
 #include "client/cli/json.h"
 #include "client/cli/live.h"
@@ -20,6 +19,7 @@
 #include "client/cli/plan_table.h"
 #include "client/cli/planning_session.h"
 #include "client/cli/plot_script.h"
+#include "client/cli/setpoint_writer.h"
 #include "client/common/file_error.h"
 #include "client/common/program_file.h"
 #include "client/common/progress_bar.h"
@@ -46,10 +46,13 @@ void write_setpoints(const Options& options, PlanningSession& session, std::ostr
   const client::StreamOptions stream_options{.period_s = options.period_s, .channels = options.channels};
   auto stream = session.planner().stream_setpoints(session.plan().name, stream_options);
   client::ProgressBar bar("setpoints");
-  write_csv(stream, session.plan().options.machine.axes, stream_options, out,
-            [&bar](const client::SetpointBatch& batch) {
-              bar.update(batch.first_index + batch.size(), batch.setpoint_count);
-            });
+  const auto writer =
+      make_writer(format_of(options), {session.plan().options.machine.axes, options.channels, options.period_s}, out);
+  for (client::SetpointBatch batch; stream.next(batch);) {
+    writer->add(batch);
+    bar.update(batch.first_index + batch.size(), batch.setpoint_count);
+  }
+  writer->finish();
 }
 
 // Has `write` write to the file of that name, which appears when it is complete; "-": to standard output.

@@ -1,13 +1,13 @@
 #include "client/cli/live.h"
 
 #include <future>
+#include <memory>
 #include <ostream>
 #include <stop_token>
 
-#include "client/cli/csv.h"
 #include "client/cli/incoming_program.h"
 #include "client/cli/planner_access.h"
-#include "client/common/file_error.h"
+#include "client/cli/setpoint_writer.h"
 
 namespace kcs::cli {
 namespace {
@@ -28,13 +28,11 @@ void send(const std::string& file, client::LiveStream& stream, std::stop_source&
   }
 }
 
-void receive(client::LiveStream& stream, const Options& options, std::size_t axes, std::ostream* out) {
-  if (out != nullptr) *out << csv_header(axes, options.channels);
+void receive(client::LiveStream& stream, SetpointWriter* writer) {
   for (client::SetpointBatch batch; stream.next(batch);) {
-    if (out != nullptr && !(*out << csv_rows(batch, options.period_s) << std::flush)) {
-      throw client::FileError("the setpoints cannot be written; is the disk full?");
-    }
+    if (writer != nullptr) writer->add(batch);
   }
+  if (writer != nullptr) writer->finish();
 }
 
 }  // namespace
@@ -47,7 +45,11 @@ client::Plan plan_live(const Options& options, std::ostream* out) {
       access.planner().plan_live(plan, {.period_s = options.period_s, .channels = options.channels}, stop.get_token());
   std::future<void> sent = std::async(std::launch::async, [&] { send(options.file, stream, stop); });
   try {
-    receive(stream, options, plan.machine.axes, out);
+    std::unique_ptr<SetpointWriter> writer;
+    if (out != nullptr) {
+      writer = make_writer(format_of(options), {plan.machine.axes, options.channels, options.period_s}, *out);
+    }
+    receive(stream, writer.get());
   } catch (...) {
     stop.request_stop();
     sent.get();  // if the program cannot be read, this says so

@@ -22,6 +22,9 @@ const std::map<std::string, Channel> kChannels = {{"velocity", Channel::kVelocit
                                                   {"path-position", Channel::kPathPosition},
                                                   {"segment", Channel::kSegment}};
 
+const std::map<std::string, SetpointFormat> kFormats = {
+    {"csv", SetpointFormat::kCsv}, {"npy", SetpointFormat::kNumPy}, {"hal", SetpointFormat::kStreamer}};
+
 void add_common_options(CLI::App& app, Options& options) {
   app.add_option("FILE", options.file, "G-code program; - reads standard input")->required()->option_text(" ");
   client::add_planning_options(app, options.machine, options.plan);
@@ -49,7 +52,13 @@ CLI::App* add_command(CLI::App& app, Options& options, Command command, const st
   return subcommand;
 }
 
+// Columns and format of the setpoints.
 void add_channels(CLI::App& app, Options& options) {
+  app.add_option_function<std::string>(
+         "--format", [&options](const std::string& name) { options.format = kFormats.at(name); },
+         "csv, npy (NumPy) or hal (LinuxCNC's halstreamer);\ndefault: by the end of the file's name, else csv")
+      ->check(CLI::IsMember(&kFormats))
+      ->option_text("NAME");
   app.add_option_function<std::vector<std::string>>(
          "--channels",
          [&options](const std::vector<std::string>& names) {
@@ -65,17 +74,17 @@ void add_commands(CLI::App& app, Options& options) {
   CLI::App* plan = add_command(app, options, Command::kPlan, "plan", "say how long a program takes, and why");
   plan->add_flag("--json", options.json, "print one JSON object instead of the table");
 
-  CLI::App* stream = add_command(app, options, Command::kStream, "stream", "write the setpoints as CSV");
+  CLI::App* stream = add_command(app, options, Command::kStream, "stream", "write the setpoints to a file");
   stream->add_option("-o,--output", options.output, "file to write; - is standard output")
       ->required()
-      ->option_text("OUT.csv");
+      ->option_text("OUT.csv|npy|hal");
   add_channels(*stream, options);
 
   CLI::App* live = add_command(app, options, Command::kLive, "live", "plan a program of any length while it comes");
   live->add_option(
           "-o,--output", options.output,
           "file for the setpoints, written meanwhile (default:\nnone); - is standard output, with no table after them")
-      ->option_text("OUT.csv");
+      ->option_text("OUT.csv|npy|hal");
   live->add_flag("--json", options.json, "print one JSON object instead of the table");
   add_channels(*live, options);
 

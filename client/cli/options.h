@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/setpoint_writer.h"
 #include "client/common/command_line.h"
 #include "client/common/planning_options.h"
 #include "client/sdk/connection.h"
@@ -52,9 +53,13 @@ struct Options {
   bool json = false;                      // all but stream and plot
   std::string output;                     // stream, live (empty: none), plot; "-": standard output
   std::vector<client::Channel> channels;  // stream, live
+  std::optional<SetpointFormat> format;   // stream, live; none: by the end of the output's name
   double from_s = 0;                      // plot: the window of time
   std::optional<double> to_s;             // plot; none: the end
 };
+
+// The format of the setpoints that are written.
+inline SetpointFormat format_of(const Options& options) { return options.format.value_or(format_of(options.output)); }
 
 // Reads the command line into `options`. Returns a message if there is nothing to run.
 std::optional<client::Message> parse_command_line(int argc, const char* const* argv, Options& options);

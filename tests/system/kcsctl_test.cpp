@@ -125,6 +125,41 @@ TEST_F(Kcsctl, StreamWritesTheChannelsAskedFor) {
   EXPECT_EQ(result.output.substr(0, result.output.find('\n')), "t,x,y,z,vx,vy,vz,ax,ay,az,jx,jy,jz");
 }
 
+TEST_F(Kcsctl, StreamWritesWhatNumPyReads) {
+  if (kcs::test::run({"/usr/bin/python3", "-c", "import numpy"}).exit_code != 0) GTEST_SKIP() << "there is no NumPy";
+  for (const char* command : {"stream", "live"}) {
+    ASSERT_EQ(run({command, program(), "-o", path("out.npy"), "--channels", "velocity,segment"}).exit_code, 0);
+    ASSERT_EQ(run({command, program(), "-o", path("out.csv"), "--channels", "velocity,segment"}).exit_code, 0);
+    const Result compared = kcs::test::run(
+        {"/usr/bin/python3", "-c",
+         "import numpy, sys\n"
+         "npy = numpy.load(sys.argv[1])\n"
+         "csv = numpy.genfromtxt(sys.argv[2], delimiter=',', names=True)\n"
+         "assert npy.dtype.names == csv.dtype.names, npy.dtype\n"
+         "assert npy['segment'].dtype == numpy.uint64\n"
+         "for name in npy.dtype.names: numpy.testing.assert_allclose(npy[name], csv[name], rtol=1e-14, atol=1e-300)\n"
+         "print(len(npy))\n",
+         path("out.npy"), path("out.csv")});
+    EXPECT_EQ(compared.exit_code, 0) << command << compared.errors;
+    EXPECT_GT(std::stoi("0" + compared.output), 100);
+  }
+}
+
+TEST_F(Kcsctl, NumPysFormatIsForFilesAlone) {
+  const Result result = run({"stream", program(), "-o", "-", "--format", "npy"});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.errors.find("ordinary file"), std::string::npos) << result.errors;
+}
+
+TEST_F(Kcsctl, StreamWritesWhatHalstreamerReads) {
+  ASSERT_EQ(run({"stream", program(), "-o", path("out.hal")}).exit_code, 0);
+  std::istringstream lines(read(path("out.hal")));
+  std::string first;
+  std::getline(lines, first);
+  EXPECT_EQ(first, "0 0 0");
+  EXPECT_EQ(run({"stream", program(), "-o", "-", "--format", "hal"}).output, lines.str());
+}
+
 TEST_F(Kcsctl, TwoAxisMachinesHaveNoZ) {
   const Result result = run({"stream", program(), "-o", "-", "--machine", "tajima-sencer-2016"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;

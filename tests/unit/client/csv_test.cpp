@@ -8,12 +8,12 @@ namespace {
 using client::Channel;
 
 TEST(Csv, HeaderNamesTheColumnsOfTheMachine) {
-  EXPECT_EQ(csv_header(3, {}), "t,x,y,z\n");
-  EXPECT_EQ(csv_header(2, {}), "t,x,y\n");
-  EXPECT_EQ(csv_header(2, {Channel::kJerk, Channel::kVelocity}), "t,x,y,vx,vy,jx,jy\n");
-  EXPECT_EQ(csv_header(3, {Channel::kVelocity, Channel::kAcceleration, Channel::kJerk}),
+  EXPECT_EQ(csv_header({3, {}}), "t,x,y,z\n");
+  EXPECT_EQ(csv_header({2, {}}), "t,x,y\n");
+  EXPECT_EQ(csv_header({2, {Channel::kJerk, Channel::kVelocity}}), "t,x,y,vx,vy,jx,jy\n");
+  EXPECT_EQ(csv_header({3, {Channel::kVelocity, Channel::kAcceleration, Channel::kJerk}}),
             "t,x,y,z,vx,vy,vz,ax,ay,az,jx,jy,jz\n");
-  EXPECT_EQ(csv_header(2, {Channel::kSegment, Channel::kVelocity, Channel::kPathPosition}),
+  EXPECT_EQ(csv_header({2, {Channel::kSegment, Channel::kVelocity, Channel::kPathPosition}}),
             "t,x,y,vx,vy,path_position,segment\n");
 }
 
@@ -40,6 +40,14 @@ TEST(Csv, ChannelsFollowThePosition) {
   batch.path_position_mm = {9.5};
   batch.segment = {10};
   EXPECT_EQ(csv_rows(batch, 1), "0,1,2,3,4,5,6,7,8,9.5,10\n");
+}
+
+TEST(Streamer, RowsHaveNeitherTimeNorCommas) {
+  client::SetpointBatch batch;
+  batch.first_index = 2;
+  batch.position_mm = {{1, 2}, {0.1, -4}};
+  batch.velocity_mm_s = {{5, 6}, {7, 8}};
+  EXPECT_EQ(streamer_rows(batch), "1 0.1 5 7\n2 -4 6 8\n");
 }
 
 }  // namespace
