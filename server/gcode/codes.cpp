@@ -13,14 +13,8 @@ std::string refusal_of_g(int tenths) {
     case code(5, 2):
     case code(5, 3):
       return "splines are not supported. Let the CAM program write lines and arcs.";
-    case code(10):
-      return "kcs keeps no offsets and no tool table to set. Remove the block.";
-    case code(28):
-    case code(28, 1):
-    case code(30):
-    case code(30, 1):
-      return "kcs does not know the machine's stored positions, so it cannot go there. Write the position as a "
-             "move, such as G53 G0 Z0, or end the program here.";
+    case code(7):
+      return "diameters (a lathe's X) are not supported: kcs takes X as it is. Write radii.";
     case code(33):
     case code(33, 1):
     case code(76):
@@ -32,17 +26,32 @@ std::string refusal_of_g(int tenths) {
     case code(38, 5):
       return "where probing ends is not known before it is done. Probe before the program, and plan the program "
              "without.";
-    case code(73):
-    case code(81):
-    case code(82):
-    case code(83):
+    case code(41):
+    case code(41, 1):
+    case code(42):
+    case code(42, 1):
+      return "cutter compensation is not supported: kcs does not know the tool's radius. Let the CAM program write the "
+             "path of the tool's centre (compensation in the computer, not in the control); if it has, remove the "
+             "word.";
+    case code(70):
+    case code(71):
+    case code(71, 1):
+    case code(71, 2):
+    case code(72):
+    case code(72, 1):
+    case code(72, 2):
+      return "cycles of turning are not supported. Let the CAM program write out the moves of the cycle.";
+    case code(74):
     case code(84):
-    case code(85):
-    case code(86):
+      return "the spindle must turn back at the bottom of a tapped hole, which a plan of motion cannot make it do. "
+             "With "
+             "a floating tap holder write the moves: G1 down, M4 (M3 for a left-hand thread), G1 up.";
     case code(87):
+      return "back boring, with a spindle that stops in a certain direction, is not supported. Let the CAM program "
+             "write out the moves of the cycle.";
     case code(88):
-    case code(89):
-      return "canned cycles are not supported. Let the CAM program write out the moves of the cycle.";
+      return "a cycle in which the operator retracts the tool is not supported. Use G86 or G89, or write G1 down, M0 "
+             "and the retract.";
     default:
       return "kcs does not know this word, and the tool might move wrongly without it. Remove it or write it "
              "differently.";
@@ -52,6 +61,12 @@ std::string refusal_of_g(int tenths) {
 Group group_of_g(const Code& word) {
   switch (word.tenths) {
     case code(4):
+    case code(10):
+    case code(28):
+    case code(28, 1):
+    case code(30):
+    case code(30, 1):
+    case code(52):
     case code(53):
     case code(92):
     case code(92, 1):
@@ -62,7 +77,14 @@ Group group_of_g(const Code& word) {
     case code(1):
     case code(2):
     case code(3):
+    case code(73):
     case code(80):
+    case code(81):
+    case code(82):
+    case code(83):
+    case code(85):
+    case code(86):
+    case code(89):
       return Group::kMotion;
     case code(17):
     case code(18):
@@ -81,12 +103,10 @@ Group group_of_g(const Code& word) {
     case code(21):
       return Group::kUnits;
     case code(40):
-    case code(41):
-    case code(41, 1):
-    case code(42):
-    case code(42, 1):
       return Group::kToolRadius;
     case code(43):
+    case code(43, 1):
+    case code(43, 2):
     case code(49):
       return Group::kToolLength;
     case code(98):
@@ -139,7 +159,8 @@ std::optional<Group> group_of_m(const Code& word) {
     case code(98):
     case code(99):
       refuse(word.place, code_name('M', word.tenths) +
-                             ": subprograms are not supported. Let the CAM program write out every move.");
+                             ": Fanuc's subprograms are not supported. Write o100 sub ... o100 endsub and o100 call "
+                             "before and instead of them, or let the CAM program write out every move.");
     default:
       return std::nullopt;
   }

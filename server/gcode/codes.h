@@ -13,7 +13,7 @@ namespace kcs::gcode {
 
 // A block has at most one word of each group.
 enum class Group : std::uint8_t {
-  kThisBlock,  // G4, G53, G92: what holds for its own block only
+  kThisBlock,  // G4, G10, G28, G53, G92: what holds for its own block only
   kMotion,
   kPlane,
   kDistance,

@@ -19,7 +19,7 @@ void Modes::apply(const Words& words, const Codes& codes, const Options& options
   if (codes.has(Group::kPlane)) apply_plane(codes[Group::kPlane]);
   if (codes.has(Group::kDistance)) incremental = codes[Group::kDistance] == code(91);
   if (codes.has(Group::kArcCentres)) absolute_centres = codes[Group::kArcCentres] == code(90, 1);
-  if (codes.has(Group::kWorkOffset)) apply_work_offset(codes[Group::kWorkOffset]);
+  if (codes.has(Group::kRetract)) retracts_to_r = codes[Group::kRetract] == code(99);
   if (codes.has(Group::kPathControl)) apply_path_control(words, codes[Group::kPathControl], options.tolerance);
 }
 
@@ -52,8 +52,12 @@ void Modes::apply_motion(int word) {
     case code(3):
       motion = Motion::kCounterclockwiseArc;
       break;
-    default:  // G80
+    case code(80):
       motion = Motion::kNone;
+      break;
+    default:  // G73 and G81 to G89
+      motion = Motion::kCycle;
+      cycle = word;
       break;
   }
 }
@@ -70,11 +74,6 @@ void Modes::apply_plane(int word) {
       plane = kPlaneXy;
       break;
   }
-}
-
-void Modes::apply_work_offset(int word) {
-  const int tenth = word - code(59);
-  coordinate_system = tenth > 0 ? 6 + tenth : word / 10 - 53;
 }
 
 void Modes::apply_path_control(const Words& words, int word, double usual_tolerance) {

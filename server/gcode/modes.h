@@ -9,7 +9,7 @@
 
 namespace kcs::gcode {
 
-enum class Motion { kNone, kRapid, kLine, kClockwiseArc, kCounterclockwiseArc };
+enum class Motion { kNone, kRapid, kLine, kClockwiseArc, kCounterclockwiseArc, kCycle };
 
 // The members begin with what is in force when a program starts.
 struct Modes {
@@ -23,6 +23,8 @@ struct Modes {
   bool is_arc() const { return motion == Motion::kClockwiseArc || motion == Motion::kCounterclockwiseArc; }
 
   Motion motion = Motion::kNone;
+  int cycle = kNoCode;        // which one, with Motion::kCycle: G81 is 810
+  bool retracts_to_r = true;  // out of the holes of a cycle (G99); otherwise to where the tool was before (G98)
   Plane plane = kPlaneXy;
   double unit = 1;  // mm; the program's unit of length
   bool incremental = false;
@@ -32,13 +34,11 @@ struct Modes {
   // mm, how far the tool may leave the path at corners. 0: not at all (G61, G61.1), the tool rests there.
   double tolerance;
   bool rests_after_every_move = false;  // G61.1
-  int coordinate_system = 1;            // 1 to 9: G54 to G59.3. All of them are the machine's own
 
  private:
   void apply_feed(const Words& words, const Codes& codes);
   void apply_motion(int word);
   void apply_plane(int word);
-  void apply_work_offset(int word);
   void apply_path_control(const Words& words, int word, double usual_tolerance);
 };
 

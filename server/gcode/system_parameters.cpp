@@ -13,6 +13,10 @@ constexpr int kFirstOfMachine = 5061;
 constexpr int kCoordinateSystem = 5220;
 constexpr int kFirstWorkOffset = 5221;
 constexpr int kLastWorkOffset = 5390;
+constexpr int kNumbersOfWorkOffset = 20;  // X, Y, Z, six other axes, and the turn
+constexpr int kTurnOfWorkOffset = 9;
+constexpr int kFirstLocalOffset = 5211;
+constexpr int kLastLocalOffset = 5219;
 constexpr int kFirstToolOffset = 5401;
 constexpr int kLastToolOffset = 5409;
 constexpr int kFirstPosition = 5420;
@@ -23,7 +27,7 @@ double position(const Interpreter& machine, int axis) {
 }
 
 double coordinate_system_code(const Interpreter& machine) {
-  const int number = machine.modes().coordinate_system;
+  const int number = machine.coordinates().system();
   return number <= 6 ? code(53 + number) : code(59, number - 6);
 }
 
@@ -37,6 +41,8 @@ double motion_code(const Interpreter& machine) {
       return code(2);
     case Motion::kCounterclockwiseArc:
       return code(3);
+    case Motion::kCycle:
+      return machine.modes().cycle;
     default:
       return code(80);
   }
@@ -75,7 +81,8 @@ constexpr std::array<Answer, 18> kAnswers{
      {"_inverse_time", [](const Interpreter& machine, Place) { return machine.modes().inverse_time ? 1.0 : 0.0; }},
      {"_units_per_minute", [](const Interpreter& machine, Place) { return machine.modes().inverse_time ? 0.0 : 1.0; }},
      {"_units_per_rev", [](const Interpreter&, Place) { return 0.0; }},
-     {"_tool_offset", [](const Interpreter&, Place) { return 0.0; }},
+     {"_tool_offset",
+      [](const Interpreter& machine, Place) { return machine.coordinates().tool().isZero() ? 0.0 : 1.0; }},
      {"_lathe_diameter_mode", [](const Interpreter&, Place) { return 0.0; }},
      {"_lathe_radius_mode", [](const Interpreter&, Place) { return 1.0; }}}};
 
@@ -99,10 +106,28 @@ bool is_unknown(const std::string& name) {
          name.starts_with(kSignal);
 }
 
+// Element `index` of a row of nine axes, of which kcs has the first three, in the program's unit of length.
+double element(const Vector& row, int index, const Interpreter& machine) {
+  return index < 3 ? row[index] / machine.modes().unit : 0;
+}
+
+double element_of_work_offset(int index, const Interpreter& machine) {
+  const WorkOffset& offset = machine.coordinates().work_offset(1 + index / kNumbersOfWorkOffset);
+  const int inside = index % kNumbersOfWorkOffset;
+  return inside == kTurnOfWorkOffset ? offset.rotation : element(offset.origin, inside, machine);
+}
+
 std::optional<double> numbered_answer(int number, const Interpreter& machine) {
-  if (number == kCoordinateSystem) return machine.modes().coordinate_system;
-  if (number >= kFirstWorkOffset && number <= kLastWorkOffset) return 0;
-  if (number >= kFirstToolOffset && number <= kLastToolOffset) return 0;
+  if (number == kCoordinateSystem) return machine.coordinates().system();
+  if (number >= kFirstWorkOffset && number <= kLastWorkOffset) {
+    return element_of_work_offset(number - kFirstWorkOffset, machine);
+  }
+  if (number >= kFirstLocalOffset && number <= kLastLocalOffset) {
+    return element(machine.coordinates().local(), number - kFirstLocalOffset, machine);
+  }
+  if (number >= kFirstToolOffset && number <= kLastToolOffset) {
+    return element(machine.coordinates().tool(), number - kFirstToolOffset, machine);
+  }
   if (number >= kFirstPosition && number < kFirstPosition + 3) return position(machine, number - kFirstPosition);
   return std::nullopt;
 }

@@ -12,8 +12,9 @@ bool is_of_machine(const Parameter& parameter);
 
 // The value of one of them before the block that asks. kcs knows:
 //   #5220, #<_coord_system>        the work offset in force: 1 to 9, and G54 to G59.3 times ten
-//   #5221 to #5390                 the work offsets: 0, as kcs takes them
-//   #5401 to #5409, #<_tool_offset>  the tool's offset: 0
+//   #5211 to #5219                 the offset of G92 or G52
+//   #5221 to #5390                 the work offsets: 20 numbers each, the turn being the tenth
+//   #5401 to #5409, #<_tool_offset>  the tool's offset, and whether there is one
 //   #5420 to #5422, #<_x> to #<_z> where the tool is, in the program's coordinates and unit of length
 //   #<_line>                       the line that asks
 //   #<_motion_mode>, #<_plane>     G words times ten, and 1 or 0 for whether each of these holds: #<_metric>,

@@ -101,8 +101,8 @@ TEST(SystemParameters, TellTheLine) { EXPECT_EQ(read_program("(first)\n\nG0 X#<_
 
 TEST(SystemParameters, AreRefusedByNameWhereKcsDoesNotKnow) {
   for (const std::string name :
-       {"#5061", "#5070", "#5161", "#5211", "#5219", "#5400", "#5410", "#5423", "#5599", "#5602", "#<_feed>", "#<_a>",
-        "#<_rpm>", "#<_current_tool>", "#<_vminor>", "#<_ini[axis_x]max_velocity>", "#<_hal[motion.probe-input]>"}) {
+       {"#5061", "#5070", "#5161", "#5210", "#5400", "#5410", "#5423", "#5599", "#5602", "#<_feed>", "#<_a>", "#<_rpm>",
+        "#<_current_tool>", "#<_vminor>", "#<_ini[axis_x]max_velocity>", "#<_hal[motion.probe-input]>"}) {
     const std::string refusal = refusal_of("G0\nX" + name);
     EXPECT_TRUE(refusal.starts_with("gcode, line 2, column 2: " + name + " asks for something about the machine"))
         << refusal;
