@@ -14,7 +14,7 @@ std::string refusal_of_g(int tenths) {
     case code(5, 3):
       return "splines are not supported. Let the CAM program write lines and arcs.";
     case code(7):
-      return "diameters (a lathe's X) are not supported: kcs takes X as it is. Write radii.";
+      return "diameters (a lathe's X) are not supported: kcs takes X as it is. Write radii (G8).";
     case code(33):
     case code(33, 1):
     case code(76):
@@ -109,6 +109,8 @@ Group group_of_g(const Code& word) {
     case code(43, 2):
     case code(49):
       return Group::kToolLength;
+    case code(8):
+      return Group::kDiameters;
     case code(98):
     case code(99):
       return Group::kRetract;

@@ -23,6 +23,7 @@ enum class Group : std::uint8_t {
   kToolRadius,
   kToolLength,
   kRetract,
+  kDiameters,
   kWorkOffset,
   kPathControl,
   kSpindleMode,

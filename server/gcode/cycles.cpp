@@ -47,12 +47,12 @@ void Cycles::execute(const Words& words, const Modes& modes, const Vector& posit
     take(along(axis, heights.retract, CycleStep::Kind::kRapid));
     height = heights.retract;
   }
-  const Stated stated = stated_by(words, modes.unit);
   Vector hole = position;
   const int repeats = repeats_of(words);
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const double first_height = repeat == 0 && height > heights.retract ? height : heights.clear;
     CycleStep approach = along(axis, first_height, CycleStep::Kind::kRapid);
+    const Stated stated = stated_move(words, modes.unit, modes.incremental, hole);
     for (const int side : {modes.plane.first, modes.plane.second}) {
       const std::optional<double>& value = stated[static_cast<std::size_t>(side)];
       if (!value) continue;

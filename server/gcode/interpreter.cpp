@@ -205,10 +205,10 @@ void Interpreter::stop(const Codes& codes) {
 // Where the move ends, in machine coordinates.
 Vector Interpreter::target(const Words& words, const Codes& codes) const {
   const bool in_machine_coordinates = codes[Group::kThisBlock] == code(53);
-  if (in_machine_coordinates && (modes_.is_arc() || modes_.incremental)) {
-    refuse(codes.place(Group::kThisBlock), "G53 goes with G0 or G1, and with G90.");
+  if (in_machine_coordinates && (modes_.is_arc() || modes_.incremental || words.has_any(kPolar))) {
+    refuse(codes.place(Group::kThisBlock), "G53 goes with G0 or G1, with G90, and with X, Y and Z.");
   }
-  const Stated stated = stated_by(words, modes_.unit);
+  const Stated stated = stated_move(words, modes_.unit, modes_.incremental, program_position());
   Vector end = builder_.position();
   if (in_machine_coordinates) {
     for (int axis = 0; axis < 3; ++axis) end[axis] = stated[static_cast<std::size_t>(axis)].value_or(end[axis]);

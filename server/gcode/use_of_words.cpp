@@ -49,6 +49,9 @@ void check_use(const Words& words, const Codes& codes, const Modes& modes) {
     refuse(codes.place(group),
            code_name('G', codes[group]) + " takes the axis words of its block. Write the move in a block of its own.");
   }
+  if (!moves(codes) && words.has_any(kPolar)) {
+    refuse(words.first_of(kPolar), "@ and ^ state where a move ends. Write X and Y here.");
+  }
   if (!words.has_any(kChecked) || codes.has_skipped()) return;
   const bool dwells = codes[Group::kThisBlock] == code(4);
   const bool blends = codes[Group::kPathControl] == code(64);

@@ -35,7 +35,7 @@ void Words::read(std::string_view text, std::uint32_t line, const Parameters& pa
   settings_.clear();
   Cursor cursor(text, line);
   while (!cursor.at_end()) {
-    if (cursor.at_letter()) {
+    if (cursor.at_letter() || cursor.at('@') || cursor.at('^')) {
       read_word(cursor, parameters);
     } else if (cursor.at_blank()) {
       cursor.skip();

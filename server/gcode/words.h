@@ -14,12 +14,16 @@ namespace kcs::gcode {
 class Cursor;
 class Parameters;
 
-// A set of letters A to Z, one bit each.
+// A set of letters, one bit each.
 using Letters = std::uint32_t;
+
+// The bit of a letter. @ and ^, which state a radius and an angle, count as letters.
+constexpr int bit_of(char letter) { return letter == '@' ? 26 : letter - 'A'; }
+inline constexpr std::size_t kLetters = bit_of('^') + 1;
 
 constexpr Letters letters(std::string_view list) {
   Letters set = 0;
-  for (const char letter : list) set |= Letters{1} << (letter - 'A');
+  for (const char letter : list) set |= Letters{1} << bit_of(letter);
   return set;
 }
 
@@ -42,7 +46,7 @@ class Words {
   // or seems to have an exponent, O words (o_word.h), and a letter that comes twice (G and M may).
   void read(std::string_view text, std::uint32_t line, const Parameters& parameters);
 
-  bool has(char letter) const { return has_any(Letters{1} << (letter - 'A')); }
+  bool has(char letter) const { return has_any(Letters{1} << bit_of(letter)); }
   bool has_any(Letters set) const { return (present_ & set) != 0; }
   // The letters of the line other than G and M.
   Letters present() const { return present_; }
@@ -63,7 +67,7 @@ class Words {
   Place start() const { return {line_, start_column_}; }
 
  private:
-  static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+  static std::size_t index(char letter) { return static_cast<std::size_t>(bit_of(letter)); }
   void read_word(Cursor& cursor, const Parameters& parameters);
   void read_setting(Cursor& cursor, const Parameters& parameters);
   void add(char letter, double value, Place place);
@@ -71,8 +75,8 @@ class Words {
   std::uint32_t line_ = 0;
   std::uint32_t start_column_ = 1;
   Letters present_ = 0;
-  std::array<double, 26> values_{};
-  std::array<std::uint32_t, 26> columns_{};
+  std::array<double, kLetters> values_{};
+  std::array<std::uint32_t, kLetters> columns_{};
   std::vector<Code> codes_;
   std::vector<Setting> settings_;
 };

@@ -146,5 +146,20 @@ TEST(Moves, WorkOffsetsCountAsZero) {
   }
 }
 
+TEST(Moves, TakeARadiusAndAnAngleAboutTheProgramsZero) {
+  const Program program = read_program("G0 @10 ^90\n^180\n@5\nG91 @1 ^90\nZ2");
+  const Vector ends[] = {{0, 10, 0}, {-10, 0, 0}, {-5, 0, 0}, {0, -6, 0}, {0, -6, 2}};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR((program.segments().at(i).end - ends[i]).norm(), 0, 1e-12) << i;
+  EXPECT_NEAR((read_program("G92 X-5\nG0 @10 ^0").end() - Vector(15, 0, 0)).norm(), 0, 1e-12);
+}
+
+TEST(Moves, RefuseARadiusAndAnAngleWhereTheyMeanNothing) {
+  EXPECT_NE(refusal_of("G0 X1 @2").find("column 7: a radius (@) or an angle (^) beside X or Y"), std::string::npos);
+  EXPECT_NE(refusal_of("G0 @2").find("the tool is at the zero of X and Y"), std::string::npos);
+  EXPECT_NE(refusal_of("G91 G0 ^2").find("the tool is at the zero of X and Y"), std::string::npos);
+  EXPECT_NE(refusal_of("G92 @2").find("@ and ^ state where a move ends"), std::string::npos);
+  EXPECT_NE(refusal_of("G53 G0 @2 ^1").find("G53 goes with"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kcs::gcode
