@@ -161,8 +161,7 @@ std::optional<Group> group_of_m(const Code& word) {
     case code(98):
     case code(99):
       refuse(word.place, code_name('M', word.tenths) +
-                             ": Fanuc's subprograms are not supported. Write o100 sub ... o100 endsub and o100 call "
-                             "before and instead of them, or let the CAM program write out every move.");
+                             ": subprograms are not supported. Let the CAM program write out every move.");
     default:
       return std::nullopt;
   }

@@ -14,8 +14,8 @@ constexpr double kMillimetresPerInch = 25.4;
 // Between the end of the rapid back into the hole and where the peck before it ended: 0.01 inches, or that in mm.
 constexpr double kPeckClearance = 0.01 * kMillimetresPerInch;
 constexpr double kSmallestPeck = 0.001;  // mm
-// A smaller rest of a hole is rounding, mm.
-constexpr double kNoPeck = 1e-6;
+// Heights closer to each other differ by rounding, mm.
+constexpr double kRounding = 1e-6;
 
 CycleStep along(int axis, double to, CycleStep::Kind kind) {
   CycleStep step{.kind = kind, .to = {}};
@@ -50,7 +50,7 @@ void Cycles::execute(const Words& words, const Modes& modes, const Vector& posit
   Vector hole = position;
   const int repeats = repeats_of(words);
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    const double first_height = repeat == 0 && height > heights.retract ? height : heights.clear;
+    const double first_height = repeat == 0 && height > heights.retract + kRounding ? height : heights.clear;
     CycleStep approach = along(axis, first_height, CycleStep::Kind::kRapid);
     const Stated stated = stated_move(words, modes.unit, modes.incremental, hole);
     for (const int side : {modes.plane.first, modes.plane.second}) {
@@ -116,7 +116,7 @@ void Cycles::drill(const Heights& heights, int axis, const TakeStep& take) const
 // G83 leaves the hole after each peck, to clear it of chips; G73 only breaks them.
 void Cycles::peck(const Heights& heights, int axis, const TakeStep& take) const {
   using Kind = CycleStep::Kind;
-  for (double depth = heights.retract - *peck_; depth > heights.bottom + kNoPeck; depth -= *peck_) {
+  for (double depth = heights.retract - *peck_; depth > heights.bottom + kRounding; depth -= *peck_) {
     take(along(axis, depth, Kind::kFeed));
     if (cycle_ == code(83)) take(along(axis, heights.retract, Kind::kRapid));
     take(along(axis, depth + kPeckClearance, Kind::kRapid));

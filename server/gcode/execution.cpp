@@ -1,14 +1,32 @@
 #include "server/gcode/execution.h"
 
+#include <optional>
 #include <utility>
 
 #include "server/gcode/arguments.h"
 #include "server/gcode/cap_reached.h"
+#include "server/gcode/dialect.h"
 
 namespace kcs::gcode {
 namespace {
 
 constexpr std::size_t kBytesOfBlock = 32;  // longer lines count as several blocks, as they take longer to read
+
+// Does what a line says. A refusal goes on to say if the line seems to be meant for another control.
+template <typename Act>
+void with_hint(const Line& line, Act&& act) {
+  try {
+    act();
+  } catch (const CapReached&) {
+    throw;
+  } catch (const planning::InvalidInput& refusal) {
+    const std::optional<std::string_view> hint = hint_on_dialect(line.text);
+    if (!hint) throw;
+    std::vector<planning::Violation> violations = refusal.violations();
+    violations.front().description += " " + std::string(*hint);
+    throw planning::InvalidInput(violations);
+  }
+}
 
 }  // namespace
 
@@ -20,7 +38,7 @@ Execution::Execution(const Options& options, TakeSegment take, Notices& notices)
 
 void Execution::read(const Line& line) {
   if (program_.nesting().empty() && !begins_with_o_word(line.text)) {
-    execute(line);
+    with_hint(line, [&] { execute(line); });
     return;
   }
   keep(line);
@@ -63,11 +81,13 @@ void Execution::run_kept_lines() {
   while (!has_ended() && !walk().at_end()) {
     const Line line = walk().take();
     count(line);
-    if (begins_with_o_word(line.text)) {
-      follow(line);
-    } else if (walk().runs()) {
-      execute(line);
-    }
+    with_hint(line, [&] {
+      if (begins_with_o_word(line.text)) {
+        follow(line);
+      } else if (walk().runs()) {
+        execute(line);
+      }
+    });
   }
 }
 
