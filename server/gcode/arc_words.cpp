@@ -73,8 +73,8 @@ Arc arc_of(const Words& words, const Modes& modes, const Coordinates& coordinate
   }
   const Turn turn = modes.motion == Motion::kClockwiseArc ? Turn::kClockwise : Turn::kCounterclockwise;
   if (!words.has('R')) {
-    const Arc arc = Arc::about_centre(start, end, centre_of(words, modes, coordinates, start), modes.plane, turn,
-                                      turns_of(words), words.start());
+    Arc arc = Arc::about_centre(start, end, centre_of(words, modes, coordinates, start), modes.plane, turn,
+                                turns_of(words), words.start());
     note_mismatch(arc, words.start(), notices);
     return arc;
   }
@@ -82,7 +82,7 @@ Arc arc_of(const Words& words, const Modes& modes, const Coordinates& coordinate
     refuse(words.place('R'), "an arc with a radius (R) and a centre (I, J, K). Keep one of them.");
   }
   const double radius = length_of(words, 'R', modes.unit);
-  const Arc arc = Arc::of_radius(start, end, radius, modes.plane, turn, turns_of(words), words.place('R'));
+  Arc arc = Arc::of_radius(start, end, radius, modes.plane, turn, turns_of(words), words.place('R'));
   note_mismatch(arc, words.start(), notices);
   note_shortfall(arc, radius, words.place('R'), notices);
   return arc;

@@ -12,7 +12,7 @@ Vector Coordinates::turned(const Vector& program) const {
 Vector Coordinates::to_machine(const Vector& program) const { return turned(program) + shift_; }
 
 Vector Coordinates::to_program(const Vector& machine) const {
-  const Vector from_zero = machine - shift_;
+  Vector from_zero = machine - shift_;
   if (!is_turned()) return from_zero;
   return {from_zero.x() * cosine_ + from_zero.y() * sine_, from_zero.y() * cosine_ - from_zero.x() * sine_,
           from_zero.z()};

@@ -116,10 +116,12 @@ void Cycles::drill(const Heights& heights, int axis, const TakeStep& take) const
 // G83 leaves the hole after each peck, to clear it of chips; G73 only breaks them.
 void Cycles::peck(const Heights& heights, int axis, const TakeStep& take) const {
   using Kind = CycleStep::Kind;
-  for (double depth = heights.retract - *peck_; depth > heights.bottom + kRounding; depth -= *peck_) {
+  double depth = heights.retract - *peck_;
+  while (depth > heights.bottom + kRounding) {
     take(along(axis, depth, Kind::kFeed));
     if (cycle_ == code(83)) take(along(axis, heights.retract, Kind::kRapid));
     take(along(axis, depth + kPeckClearance, Kind::kRapid));
+    depth -= *peck_;
   }
   take(along(axis, heights.bottom, Kind::kFeed));
 }
