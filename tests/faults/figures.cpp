@@ -33,7 +33,7 @@ std::optional<double> reaction(const Commands& commands, const Places& places, d
 // How long the plan's tail is behind a place at the planned pace, in setpoints.
 std::optional<std::size_t> planned_tail(const Place& place, const motion::AxisLimits& limits, double period) {
   const runs::BatchOptions options{.period = period, .setpoints = kBatch};
-  runs::BatchMaker maker(place.run->plan.trajectory, limits, options);
+  runs::BatchMaker maker(place.run->plan, limits, options);
   const auto batch = maker.next({.plan_time = place.time - static_cast<double>(kBatch) * period, .rate = 1}, 1);
   return batch ? std::optional(batch->tail.size()) : std::nullopt;
 }

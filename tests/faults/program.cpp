@@ -24,13 +24,13 @@ constexpr std::array<double, 3> kVelocity = {500, 500, 400}, kAcceleration = {34
 // Starts at 0 and comes back to it.
 Program make_program(const std::string& name, const std::string& gcode) {
   Program program{.name = name, .segments = {}};
-  gcode::Reader reader({.feed = kFeed, .tolerance = kTolerance},
-                       [&program](const planning::Segment& segment) { program.segments.push_back(segment); });
+  gcode::Reader reader({.feed = kFeed, .tolerance = kTolerance}, [&program](planning::Segment segment) {
+    segment.feed = kFeed;  // those of no length, which only switch something, have none
+    program.segments.push_back(segment);
+  });
   reader.read(gcode);
   reader.finish();
-  planning::Segment back = program.segments.back();
-  back.end = Vector::Zero();
-  program.segments.push_back(back);
+  program.segments.push_back({.end = Vector::Zero(), .feed = kFeed, .tolerance = kTolerance});
   return program;
 }
 

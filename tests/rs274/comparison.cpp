@@ -27,22 +27,25 @@ class Follower {
 
   // What is wrong on the next segments as the path of `move`; empty if nothing is.
   std::string follow(const Move& move) {
-    skip_dwell();
+    skip_pauses();
     return move.turns == 0 ? follow_line(move) : follow_arc(move);
   }
 
-  // Nothing but a dwell is left.
+  // Nothing but dwells and switches is left.
   bool has_ended() {
-    skip_dwell();
+    skip_pauses();
     return at_end();
   }
 
  private:
   bool at_end() const { return next_ == path_.segments.size(); }
 
-  // A path has no other place for a dwell at its start than a segment of no length.
-  void skip_dwell() {
-    if (!at_end() && path_.segments[next_].dwell > 0 && path_.segments[next_].end == at_) ++next_;
+  // What happens at the start of a path, and one switch after the other, has no place but in segments of no length.
+  void skip_pauses() {
+    while (!at_end() && is_pause(path_.segments[next_])) ++next_;
+  }
+  bool is_pause(const Segment& segment) const {
+    return segment.end == at_ && (segment.dwell > 0 || segment.marker.kind != planning::MarkerKind::kNone);
   }
 
   // Goes to the end of the next segment.

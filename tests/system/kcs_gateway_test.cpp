@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -37,6 +38,14 @@ const std::vector<std::string> kAsInThePaper = {
 std::string contents(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A recording without its last column, which is the time of day.
+std::string motion_in(const fs::path& recording) {
+  std::istringstream lines(contents(recording));
+  std::string motion;
+  for (std::string line; std::getline(lines, line);) motion += line.substr(0, line.rfind(',')) + '\n';
+  return motion;
 }
 
 class Gateway : public testing::Test {
@@ -134,7 +143,7 @@ TEST_F(Gateway, SimulatedTimeAndClockGiveTheSameMotion) {
   const std::string program = write("six.ngc", kSixCorners);
   const auto by_clock = play(with({program, "--record", folder_.path("clock.csv")}));
   const auto simulated = play(with({program, "--fast", "--record", folder_.path("fast.csv")}));
-  EXPECT_EQ(contents(folder_.path("clock.csv")), contents(folder_.path("fast.csv")));
+  EXPECT_EQ(motion_in(folder_.path("clock.csv")), motion_in(folder_.path("fast.csv")));
   EXPECT_EQ(by_clock["contour_error_max_mm"], simulated["contour_error_max_mm"]);
   EXPECT_EQ(by_clock["unmeasured_ticks"], 0);
   EXPECT_TRUE(by_clock.contains("lateness_us"));
