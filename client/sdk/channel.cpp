@@ -65,6 +65,8 @@ std::shared_ptr<grpc::Channel> open_channel(const Connection& connection, const 
   set(GRPC_ARG_KEEPALIVE_TIME_MS, pace.ping_after_silence);
   set(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, pace.ping_timeout);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number of them
+  // A new channel is a new connection: one that is not to be trusted any more can be left.
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   set(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, pace.first_pause);
   set(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, pace.longest_pause);
   return grpc::CreateCustomChannel(connection.address, credentials(connection), arguments);

@@ -85,7 +85,7 @@ void Machine::follow(const MachineReport& report) {
     case MachineState::kHeld:
     case MachineState::kReady:
       if (run_->abort_asked) return end_run(RunState::kAborted, "");
-      if (run_->state == RunState::kWaiting && report.where.branch == resumed_branch_) break;  // it has not begun yet
+      if (run_->state == RunState::kWaiting && !has_refused_to_begin(report)) break;  // it has not begun yet
       run_->state = RunState::kHeld;
       run_->reason = report.fault;
       break;
@@ -94,6 +94,13 @@ void Machine::follow(const MachineReport& report) {
     case MachineState::kUnknown:
       end_run(RunState::kFailed, "the machine was switched off");
   }
+}
+
+// A machine that was resumed, or has not begun, is on the branch that it is to begin on. It has held where it stands if
+// it has left that, or if it refused what it was to begin with and waits for somebody to resume it.
+bool Machine::has_refused_to_begin(const MachineReport& report) const {
+  if (report.where.branch != resumed_branch_) return true;
+  return report.state == MachineState::kHeld && report.refused_batches != refused_before_;
 }
 
 void Machine::end_run(RunState state, std::string reason) {
@@ -181,6 +188,7 @@ void Machine::start_feed() {
   feed_.emplace(plan_->plan, plan_->options.planning.limits, profile_.feed);
   feed_->set_rate(run_->rate);
   resumed_branch_ = 0;
+  refused_before_ = report_.refused_batches;
   if (report_.run != run_->name) {
     feed_->go_on_from({.ends = {BatchEnd{}}});
     orders_.emplace_back(StartOrder{run_->name, run_->plan, plan_->plan.start});
@@ -222,6 +230,7 @@ Run Machine::resume(const std::string& name) {
   } else {
     feed_->go_on_from({.ends = {BatchEnd{}}});
   }
+  refused_before_ = report_.refused_batches;
   run.state = RunState::kWaiting;
   run.hold_asked = false;
   run.reason.clear();

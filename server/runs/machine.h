@@ -101,6 +101,7 @@ class Machine {
   void start_feed();
   void note_speed(const MachineReport& report);
   void follow(const MachineReport& report);
+  bool has_refused_to_begin(const MachineReport& report) const;
   void end_run(RunState state, std::string reason);
 
   const MachineProfile profile_;
@@ -113,6 +114,7 @@ class Machine {
   std::deque<Order> orders_;     // before any batch
   bool started_ = false;         // the machine has said that it is on the run
   std::uint64_t resumed_branch_ = 0;
+  std::uint64_t refused_before_ = 0;  // batches, when it was resumed or begun
 };
 
 }  // namespace kcs::runs

@@ -21,6 +21,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kOrderLook{20}, kLook{2};
 // Gateways without a run report five times a second.
 constexpr std::chrono::milliseconds kNextReport{500};
+// A call that says nothing for longer is broken, whatever its connection looks like: a machine without one has stopped
+// long before. So much sooner the other side is given a sign of life.
+constexpr std::chrono::milliseconds kLongestSilence{3000}, kSignOfLife{1000};
 constexpr double kPercent = 100;
 
 // Takes a gateway's reports in a thread of its own.
@@ -38,6 +41,7 @@ class Reports {
   Reports& operator=(const Reports&) = delete;
 
   bool over() const { return over_; }
+  Clock::duration silent_for() const { return Clock::now() - last_.load(); }
   // What was wrong with the last one, if it ended for that.
   void rethrow() const {
     if (fault_) std::rethrow_exception(fault_);
@@ -49,6 +53,7 @@ class Reports {
       std::optional<runs::Run> noted;
       v1::AttachMachineRequest message;
       while (stream.Read(&message) && !ending_) {
+        last_ = Clock::now();
         machine.report(decode_report(message.report(), machine.profile().limits.axes));
         runs.note(machine, noted);
       }
@@ -61,6 +66,7 @@ class Reports {
   grpc::ServerContext& context_;
   std::exception_ptr fault_;  // before over_
   std::atomic<bool> over_ = false, ending_ = false;
+  std::atomic<Clock::time_point> last_ = Clock::now();
   std::jthread thread_;  // last: it uses all the others
 };
 
@@ -101,11 +107,16 @@ grpc::Status MachineService::AttachMachine(grpc::ServerContext* context, AttachS
     const bool is_new = !first.run.empty() && (!known || known->name != first.run);
     if (is_new) runs_.take_up(caller, machine, first.run);
     Reports reports(*stream, *context, runs_, machine);
-    while (!reports.over() && !attachment.superseded()) {
+    for (auto said = Clock::now(); !reports.over() && !attachment.superseded();) {
       caller.require_wanted();
       if (calls_.closed() && !machine.has_open_run()) throw Stopping();  // it can attach elsewhere at once
+      if (reports.silent_for() > kLongestSilence) {
+        return {grpc::StatusCode::UNAVAILABLE, "no report has come for three seconds; attach anew"};
+      }
       const auto order = machine.next_order(kOrderLook);
-      if (order && !stream->Write(encode_order(*order, axes))) break;
+      if (!order && Clock::now() - said < kSignOfLife) continue;
+      if (!stream->Write(order ? encode_order(*order, axes) : v1::AttachMachineResponse())) break;
+      said = Clock::now();
     }
     if (attachment.superseded()) context->TryCancel();  // nobody listens any more
     reports.rethrow();

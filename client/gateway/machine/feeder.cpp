@@ -67,6 +67,8 @@ void Feeder::take(const v1::AttachMachineResponse& order) {
       return take(order.command());
     case v1::AttachMachineResponse::kResume:
       return resume(order.resume());
+    case v1::AttachMachineResponse::CONTENT_NOT_SET:
+      return;  // a sign of life
     default:
       log_->warn("the server sent something that this gateway does not know; is it of a later version?");
   }

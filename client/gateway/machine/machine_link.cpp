@@ -25,6 +25,8 @@ constexpr milliseconds kLongestPause{1000};
 constexpr milliseconds kPauseAfterRefusal{2000};
 // A server that refuses does so sooner, and one that takes the machine may have nothing to say for longer.
 constexpr milliseconds kTakenAfter{1000};
+// Servers give a sign of life each second.
+constexpr milliseconds kLongestSilence{3000};
 
 // kcsd lets a client ping every 5 s.
 constexpr client::ChannelPace kPace = {.ping_after_silence = milliseconds(6000),
@@ -91,7 +93,7 @@ bool is_refusal(grpc::StatusCode code) {
 
 MachineLink::MachineLink(const client::Connection& server, v1::MachineHello hello, Feeder& feeder,
                          std::shared_ptr<spdlog::logger> log)
-    : address_(server.address),
+    : server_(server),
       hello_(std::move(hello)),
       feeder_(feeder),
       log_(std::move(log)),
@@ -119,11 +121,13 @@ MachineLink::Attempt MachineLink::attach(const std::stop_token& stop) {
   Reporter reporter(*stream, feeder_, hello_);
   const auto begin = Clock::now();
   std::atomic<bool> heard = false;
+  std::atomic<Clock::time_point> last_heard = begin;
   std::atomic<bool> ended = false;
   {
     std::jthread reader([&] {
       for (v1::AttachMachineResponse order; stream->Read(&order);) {
         heard = true;
+        last_heard = Clock::now();
         feeder_.take(order);
       }
       ended = true;
@@ -134,6 +138,13 @@ MachineLink::Attempt MachineLink::attach(const std::stop_token& stop) {
         tell_attached();
         told = true;
       }
+      if (Clock::now() - last_heard.load() > kLongestSilence) {
+        // Its connection may look sound, and still swallow what is sent: the next attempt gets another one.
+        context.TryCancel();
+        channel_ = client::open_channel(server_, kPace);
+        stub_ = v1::MachineService::NewStub(channel_);
+        break;
+      }
       std::this_thread::sleep_for(kLookForNews);
     }
   }
@@ -141,14 +152,14 @@ MachineLink::Attempt MachineLink::attach(const std::stop_token& stop) {
 }
 
 void MachineLink::tell_attached() {
-  log_->info("attached server={} machine={}", address_, hello_.machine());
+  log_->info("attached server={} machine={}", server_.address, hello_.machine());
   told_.clear();
 }
 
 void MachineLink::tell_lost(const Attempt& attempt) {
   const std::string reason = attempt.status.ok() ? "the server ended the call" : attempt.status.error_message();
   if (reason == told_) return;
-  log_->warn("{} server={} code={} reason={:?}", attempt.attached ? "link lost" : "not attached", address_,
+  log_->warn("{} server={} code={} reason={:?}", attempt.attached ? "link lost" : "not attached", server_.address,
              static_cast<int>(attempt.status.error_code()), reason);
   told_ = reason;
 }

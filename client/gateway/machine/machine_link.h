@@ -20,8 +20,8 @@ namespace kcs::gateway {
 // for as long as it takes, after 50 ms at first and 1 s at most; one that the server refuses (the machine is attached
 // already, the token is not known) after 2 s, since that mends itself only slowly.
 //
-// A server that does not answer is noticed within 8 s by a ping, within 2 s if it does not take what is sent to it.
-// What the machine plays does not hang on that: without batches it stops by itself.
+// A server that says nothing for 3 s is taken for gone, however sound the connection to it looks; the next attempt
+// makes another one. What the machine plays does not hang on that: without batches it stops by itself.
 class MachineLink {
  public:
   // feeder must outlive this object. Throws as client::open_channel.
@@ -41,7 +41,7 @@ class MachineLink {
   void tell_attached();
   void tell_lost(const Attempt& attempt);
 
-  std::string address_;
+  client::Connection server_;
   v1::MachineHello hello_;
   Feeder& feeder_;
   std::shared_ptr<spdlog::logger> log_;
