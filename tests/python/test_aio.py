@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import kcs
-import kcs.aio
 
 
 def run(test: Callable[[kcs.aio.Client], Awaitable[None]], server: str | None = None) -> None:

@@ -68,9 +68,9 @@ def test_a_program_starts_where_it_is_told(client: kcs.Client, table: kcs.Machin
 
 
 def test_notices_of_the_program_come_with_the_plan(client: kcs.Client, table: kcs.Machine) -> None:
-    plan = client.plan(gcode="M3 S1000\nG1 X1 F600\nM5\n", machine=table)
+    plan = client.plan(gcode="M48\nG1 X1 F600\nM48\n", machine=table)
     assert plan.notices[0].line == 1
-    assert "Spindle" in plan.notices[0].text
+    assert "M48" in plan.notices[0].text
     assert plan.notices[0].count == 2
 
 

@@ -69,3 +69,9 @@ def test_a_period_out_of_range_is_refused_by_the_server(circle: kcs.Plan) -> Non
     with pytest.raises(kcs.Error) as failure:
         circle.setpoints(0)
     assert failure.value.violations[0].field == "period_s"
+
+
+def test_a_prompt_shows_them_and_their_plan_in_a_line_each(circle: kcs.Plan) -> None:
+    assert repr(circle) == f"<Plan '{circle.name}': {circle.summary.cycle_time_s:.3f} s on table>"
+    setpoints = circle.setpoints(0.001, ["jerk"])
+    assert repr(setpoints) == f"<{len(setpoints):,} setpoints, 0.000 to {setpoints.time_s[-1]:.3f} s: position, jerk>"

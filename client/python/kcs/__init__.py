@@ -11,6 +11,7 @@
 Millimetres, seconds, and what follows from them; axes in the order X, Y, Z.
 """
 
+from kcs import aio
 from kcs.client import Client, Plan
 from kcs.connection import Connection
 from kcs.corners import slowest_spots
@@ -30,6 +31,7 @@ __all__ = [
     "Setpoints",
     "Summary",
     "Violation",
+    "aio",
     "shipped_machines",
     "slowest_spots",
 ]

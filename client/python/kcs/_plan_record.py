@@ -7,7 +7,7 @@ from kcs.machine import Machine
 from kcs.summary import Notice, Summary
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class PlanRecord:
     """A plan as the server told it when it was made."""
 
@@ -21,6 +21,10 @@ class PlanRecord:
     """Cycle time, and what else it amounts to."""
     notices: tuple[Notice, ...]
     """What the reader of the G-code noticed, and planned around."""
+
+    def __repr__(self) -> str:
+        """What a prompt shows: one line; ``print(plan.summary)`` says more."""
+        return f"<Plan {self.name!r}: {self.summary.cycle_time_s:.3f} s on {self.machine.name or 'a machine without name'}>"
 
 
 def from_message(message: _contract.Message) -> PlanRecord:

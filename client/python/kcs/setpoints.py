@@ -23,7 +23,7 @@ _PER_AXIS = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Setpoints:
     """Consecutive setpoints of n instants. Arrays per axis have the shape (n, axes), their columns are contiguous.
     Those of a batch are read-only. A channel that was not asked for raises AttributeError.
@@ -38,6 +38,11 @@ class Setpoints:
 
     def __len__(self) -> int:
         return len(self.time_s)
+
+    def __repr__(self) -> str:
+        """What a prompt shows: one line, not the arrays."""
+        span = f", {self.time_s[0]:.3f} to {self.time_s[-1]:.3f} s" if len(self) else ""
+        return f"<{len(self):,} setpoints{span}: {', '.join(self.columns)}>"
 
     @property
     def position_mm(self) -> FloatArray:
