@@ -7,20 +7,14 @@ namespace kcs::gcode {
 namespace {
 
 constexpr std::string_view kHeidenhain =
-    "This looks like Heidenhain's conversational language. Use the CAM program's post-processor for LinuxCNC (RS-274): "
-    "L X+10 F500 is G1 X10 F500, FMAX is G0, CC and C are G2 or G3 with I and J, CYCL DEF is G81 to G89, TOOL CALL is "
-    "T "
-    "and M6.";
+    "This looks like Heidenhain's conversational language. Use the CAM program's post-processor for LinuxCNC: "
+    "L X+10 F500 is G1 X10 F500, FMAX is G0, CC and C are G2 or G3 with I and J, CYCL DEF is G81 to G89.";
 constexpr std::string_view kSiemens =
-    "This looks like Siemens' language (Sinumerik). Use the CAM program's post-processor for LinuxCNC (RS-274), or the "
-    "control's ISO mode: R1=5 is #1=5, X=R1 is X#1, CYCLE81 is G81, TRANS is G52, MSG is a comment, IF and GOTOF are "
-    "o100 "
-    "if.";
+    "This looks like Siemens' language (Sinumerik). Use the CAM program's post-processor for LinuxCNC: "
+    "R1=5 is #1=5, X=R1 is X#1, CYCLE81 is G81, TRANS is G52, MSG is a comment, IF and GOTOF are o100 if.";
 constexpr std::string_view kFanuc =
-    "This looks like Fanuc's macro language. Use the CAM program's post-processor for LinuxCNC (RS-274): M98 P100 L2 "
-    "and "
-    "G65 P100 are o100 call before which stands o100 sub, M99 is o100 endsub, IF [#1 EQ 2] GOTO is o100 if [#1 EQ 2], "
-    "WHILE [...] DO1 is o100 while [...], G05.1 is G64 P with a tolerance.";
+    "This looks like Fanuc's macro language. Use the CAM program's post-processor for LinuxCNC: M98 P100 is o100 call, "
+    "with o100 sub and o100 endsub before it, IF and GOTO are o100 if, WHILE is o100 while, G05.1 is G64 P.";
 
 // Words are searched in the line in upper case, without comments and blanks, where a blank in a word stands for the
 // beginning of the line, behind its number.
