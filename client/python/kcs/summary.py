@@ -57,7 +57,8 @@ class Summary:
             (
                 f"Cycle time          {format_time(self.cycle_time_s)}   ({self.cycle_time_s:.3f} s)",
                 f"Path                {self.path_length_mm:.3f} mm in {self.segment_count:,} segments",
-                f"Corners             {self.corner_count:,}, of them {self.exact_stop_count:,} exact stops",
+                f"Corners             {self.corner_count:,}, of them {self.exact_stop_count:,} exact "
+                f"stop{'' if self.exact_stop_count == 1 else 's'}",
                 f"Lost at corners     {self.time_lost_at_corners_s:.3f} s, "
                 f"{self.time_lost_at_corners_s * share:.1f} % of the cycle time",
                 f"At feed             {self.time_at_feed_s:.3f} s, {self.time_at_feed_s * share:.1f} % of the cycle time",
