@@ -53,7 +53,7 @@ jobs::RequestRecord IncomingPath::finish() {
     record.notices = gcode_->notices();
     record.max_chord_error = gcode_->largest_chord_error();
   } else {
-    refuse("path", "is missing: send points or G-code after the options");
+    refuse("path", "is missing or empty: send points or G-code after the options");
   }
   record.name = digest_->finish();
   record.options = options_;
