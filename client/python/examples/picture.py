@@ -28,7 +28,8 @@ def main() -> None:
             plan = client.plan(points=star(), machine=machine, tolerance=0.02, feed=120)
         print(plan.summary)
         for spot in kcs.slowest_spots(plan.corners(), 3):
-            print(f"slow at {spot['point_mm'].round(2)} mm: {spot['time_lost_s']:.3f} s lost")
+            line = f"line {spot['line']}, " if spot["line"] else ""
+            print(f"slow at {line}{spot['point_mm'].round(2)} mm: {spot['time_lost_s']:.3f} s lost")
         plan.plot("plan.png")
         print("plan.png shows it")
 
