@@ -18,8 +18,8 @@ class LivePlaces {
   LivePlaces(const LivePlaces&) = delete;
   LivePlaces& operator=(const LivePlaces&) = delete;
 
-  // The next segment of the path; it comes before the phases that follow it.
-  void add(const Vector& end) { path_.add(end); }
+  // The next segment of the path, as Path takes it; it comes before the phases that follow it.
+  void add(const Vector& end, std::uint32_t line = 0) { path_.add(end, line); }
   // The next phase; it starts exactly when the one before it ends.
   void add(const Phase& phase);
 
@@ -27,6 +27,9 @@ class LivePlaces {
   Place next();
   // That of the last one.
   Place end() const { return path_.end(); }
+
+  // From the last place that was given on.
+  const Path& path() const { return path_; }
 
  private:
   void go_to(double time);

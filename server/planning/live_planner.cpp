@@ -42,7 +42,7 @@ void LivePlanner::add(const Segment& segment) {
   markers_.add(segment, from, moves);
   if (moves) {
     summary_.path_length += (segment.end - from).norm();
-    receiver_.take(segment.end);
+    receiver_.take(segment);
   }
   if (horizon_.in_sight(legs_)) settle_next();
 }

@@ -12,8 +12,8 @@ namespace kcs::planning {
 class PlanReceiver {
  public:
   virtual ~PlanReceiver() = default;
-  // The end of the next segment that moves, mm: before the phases that follow it.
-  virtual void take(const Vector& segment_end) = 0;
+  // The next segment that moves: before the phases that follow it.
+  virtual void take(const Segment& segment) = 0;
   virtual void take(const motion::Phase& phase) = 0;
   virtual void take(const Corner& corner) = 0;
   // Before the phase during which it is due, if there is one.

@@ -34,7 +34,7 @@ bool Planner::go_on() {
   return false;
 }
 
-void Planner::take(const Vector& segment_end) { plan_.path.add(segment_end); }
+void Planner::take(const Segment& segment) { plan_.path.add(segment.end, segment.line); }
 
 // What comes before the segments of a phase is planned; segments of no length, which phases do not count, are made up
 // for at the end.

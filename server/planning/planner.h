@@ -34,7 +34,7 @@ class Planner final : PlanReceiver {
   Plan take_plan() { return std::move(plan_); }
 
  private:
-  void take(const Vector& segment_end) override;
+  void take(const Segment& segment) override;
   void take(const motion::Phase& phase) override;
   void take(const Corner& corner) override;
   void take(const MarkerAt& marker) override;

@@ -65,7 +65,7 @@ void LiveCall::flush() {
   if (corners_) corners_->flush();
 }
 
-void LiveCall::take(const planning::Vector& segment_end) { setpoints_->add(segment_end); }
+void LiveCall::take(const planning::Segment& segment) { setpoints_->add(segment); }
 
 void LiveCall::take(const motion::Phase& phase) {
   ++phases_;

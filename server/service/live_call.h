@@ -37,7 +37,7 @@ class LiveCall final : public planning::PlanReceiver {
   void begin(const v1::PlanOptions& options, const v1::LiveOutput& output);
   void plan(const planning::Segment& segment);
   void flush();
-  void take(const planning::Vector& segment_end) override;
+  void take(const planning::Segment& segment) override;
   void take(const motion::Phase& phase) override;
   void take(const planning::Corner& corner) override;
   void take(const planning::MarkerAt& marker) override;

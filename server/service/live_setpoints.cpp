@@ -26,8 +26,8 @@ void LiveSetpoints::begin(const motion::Vector& start) {
   if (columns_.has_places()) places_.emplace(start, period_);
 }
 
-void LiveSetpoints::add(const motion::Vector& segment_end) {
-  if (places_) places_->add(segment_end);
+void LiveSetpoints::add(const planning::Segment& segment) {
+  if (places_) places_->add(segment.end, segment.line);
 }
 
 void LiveSetpoints::add(const motion::Phase& phase) {
@@ -70,7 +70,7 @@ void LiveSetpoints::put_settled() {
   while (const auto setpoint = sampler_.next()) {
     if (size_ == 0) columns_.begin(*response_.mutable_setpoints(), columns_.batch_size());
     columns_.set(size_, *setpoint);
-    if (places_) columns_.set(size_, sampler_.ended() ? places_->end() : places_->next());
+    if (places_) columns_.set(size_, sampler_.ended() ? places_->end() : places_->next(), places_->path());
     ++size_;
     put_markers();
     if (size_ == columns_.batch_size()) flush();

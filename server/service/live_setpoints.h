@@ -12,6 +12,7 @@
 #include "server/motion/live_places.h"
 #include "server/motion/live_sampler.h"
 #include "server/planning/marker.h"
+#include "server/planning/toolpath.h"
 #include "server/service/setpoint_columns.h"
 
 namespace kcs::service {
@@ -27,8 +28,8 @@ class LiveSetpoints {
 
   // Where the path starts, mm: before all of the following.
   void begin(const motion::Vector& start);
-  // The end of the next segment of the path: before the phases that follow it.
-  void add(const motion::Vector& segment_end);
+  // The next segment of the path that moves: before the phases that follow it.
+  void add(const planning::Segment& segment);
   // The next marker: before the phase during which it is due.
   void add(const planning::MarkerAt& marker) { markers_.push_back(marker); }
   // The next phase of the motion. Throws planning::InvalidInput where the setpoints become too many.

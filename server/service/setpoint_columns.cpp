@@ -51,6 +51,7 @@ void SetpointColumns::begin(v1::SetpointBatch& batch, std::uint64_t size) {
   batch.clear_markers();
   if (has_path_position_) path_position_ = resized(*batch.mutable_path_position_mm(), static_cast<int>(size));
   if (has_segment_) segment_ = resized(*batch.mutable_segment(), static_cast<int>(size));
+  if (has_line_) line_ = resized(*batch.mutable_line(), static_cast<int>(size));
 }
 
 void SetpointColumns::set(std::uint64_t index, const motion::Setpoint& setpoint) {
@@ -63,9 +64,10 @@ void SetpointColumns::set(std::uint64_t index, const motion::Setpoint& setpoint)
   if (has_jerk_) store(jerk_, setpoint.jerk);
 }
 
-void SetpointColumns::set(std::uint64_t index, const motion::Place& place) {
+void SetpointColumns::set(std::uint64_t index, const motion::Place& place, const motion::Path& path) {
   if (has_path_position_) path_position_[index] = place.way;
   if (has_segment_) segment_[index] = place.segment;
+  if (has_line_) line_[index] = path.line_of(place.segment);
 }
 
 void SetpointColumns::cut(v1::SetpointBatch& batch, std::uint64_t size) {
@@ -75,6 +77,7 @@ void SetpointColumns::cut(v1::SetpointBatch& batch, std::uint64_t size) {
   }
   truncate(*batch.mutable_path_position_mm(), static_cast<int>(size));
   truncate(*batch.mutable_segment(), static_cast<int>(size));
+  truncate(*batch.mutable_line(), static_cast<int>(size));
 }
 
 std::uint64_t setpoint_of(const planning::MarkerAt& marker, double period) {
@@ -112,10 +115,13 @@ void SetpointColumns::add_channel(v1::Channel channel, const std::string& parent
     case v1::CHANNEL_SEGMENT:
       has_segment_ = true;
       break;
+    case v1::CHANNEL_LINE:
+      has_line_ = true;
+      break;
     default:
       violations.add(fmt::format("{}channels[{}]", parent, index),
-                     fmt::format("{} is no channel: give position, velocity, acceleration, jerk, path position or "
-                                 "segment",
+                     fmt::format("{} is no channel: give position, velocity, acceleration, jerk, path position, "
+                                 "segment or line",
                                  static_cast<int>(channel)));
   }
 }

@@ -37,13 +37,13 @@ class SetpointColumns {
   // Setpoints in a batch, at most.
   std::uint64_t batch_size() const { return batch_size_; }
   // Whether places on the path are wanted.
-  bool has_places() const { return has_path_position_ || has_segment_; }
+  bool has_places() const { return has_path_position_ || has_segment_ || has_line_; }
 
   // Gives `batch` room for `size` setpoints, and takes its markers away. Giving the same batch again saves allocations.
   void begin(v1::SetpointBatch& batch, std::uint64_t size);
-  // Sets setpoint `index` of the batch, and the place that belongs to it.
+  // Sets setpoint `index` of the batch, and the place on the path that belongs to it.
   void set(std::uint64_t index, const motion::Setpoint& setpoint);
-  void set(std::uint64_t index, const motion::Place& place);
+  void set(std::uint64_t index, const motion::Place& place, const motion::Path& path);
   // Leaves the first `size` setpoints in the batch.
   static void cut(v1::SetpointBatch& batch, std::uint64_t size);
 
@@ -60,9 +60,11 @@ class SetpointColumns {
   bool has_jerk_ = false;
   bool has_path_position_ = false;
   bool has_segment_ = false;
+  bool has_line_ = false;
   Numbers position_{}, velocity_{}, acceleration_{}, jerk_{};
   double* path_position_ = nullptr;
   std::uint64_t* segment_ = nullptr;
+  std::uint32_t* line_ = nullptr;
 };
 
 // The first setpoint that is not before a marker.

@@ -56,7 +56,7 @@ bool SetpointStream::next(v1::SetpointBatch& batch) {
   const std::uint64_t size = std::min(columns_.batch_size(), end_ - next_);
   columns_.begin(batch, size);
   for (std::uint64_t i = 0; i < size; ++i) columns_.set(i, sampler_.at(next_ + i));
-  for (std::uint64_t i = 0; places_ && i < size; ++i) columns_.set(i, places_->at(next_ + i));
+  for (std::uint64_t i = 0; places_ && i < size; ++i) columns_.set(i, places_->at(next_ + i), plan_->plan.path);
   batch.set_first_index(next_);
   batch.set_setpoint_count(sampler_.count());
   add_markers(size, batch);

@@ -115,7 +115,7 @@ class LiveComparison : public planning::PlanReceiver {
     compare();
   }
 
-  void take(const Vector& segment_end) override { places_.add(segment_end); }
+  void take(const planning::Segment& segment) override { places_.add(segment.end); }
   void take(const motion::Phase& phase) override {
     setpoints_.add(phase);
     places_.add(phase);

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -94,13 +95,16 @@ std::vector<double> random_walk(std::uint64_t seed) {
   return numbers;
 }
 
-// Way and segment of each setpoint.
-std::vector<std::pair<double, std::uint64_t>> places(const std::vector<v1::SetpointBatch>& batches) {
-  std::vector<std::pair<double, std::uint64_t>> result;
+// Way, segment and line of each setpoint.
+std::vector<std::tuple<double, std::uint64_t, std::uint32_t>> places(const std::vector<v1::SetpointBatch>& batches) {
+  std::vector<std::tuple<double, std::uint64_t, std::uint32_t>> result;
   for (const v1::SetpointBatch& batch : batches) {
     EXPECT_EQ(batch.path_position_mm_size(), batch.position_mm(0).values_size());
     EXPECT_EQ(batch.segment_size(), batch.position_mm(0).values_size());
-    for (int i = 0; i < batch.segment_size(); ++i) result.emplace_back(batch.path_position_mm(i), batch.segment(i));
+    EXPECT_EQ(batch.line_size(), batch.position_mm(0).values_size());
+    for (int i = 0; i < batch.segment_size(); ++i) {
+      result.emplace_back(batch.path_position_mm(i), batch.segment(i), batch.line(i));
+    }
   }
   return result;
 }
@@ -123,7 +127,7 @@ class Live : public ::testing::Test {
   // That the messages give the same as a stored plan of `whole`.
   void expect_same(const Messages& whole, const Messages& pieces, v1::LiveOutput output) {
     for (const v1::Channel channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK,
-                                      v1::CHANNEL_PATH_POSITION, v1::CHANNEL_SEGMENT}) {
+                                      v1::CHANNEL_PATH_POSITION, v1::CHANNEL_SEGMENT, v1::CHANNEL_LINE}) {
       output.add_channels(channel);
     }
     output.set_corners(true);

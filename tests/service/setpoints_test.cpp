@@ -13,8 +13,8 @@ namespace {
 
 using Columns = google::protobuf::RepeatedPtrField<v1::Column>;
 
-constexpr v1::Channel kAllChannels[] = {v1::CHANNEL_VELOCITY, v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK,
-                                        v1::CHANNEL_PATH_POSITION, v1::CHANNEL_SEGMENT};
+constexpr v1::Channel kAllChannels[] = {v1::CHANNEL_VELOCITY,      v1::CHANNEL_ACCELERATION, v1::CHANNEL_JERK,
+                                        v1::CHANNEL_PATH_POSITION, v1::CHANNEL_SEGMENT,      v1::CHANNEL_LINE};
 
 template <typename Numbers>
 void append(const Numbers& from, int skip, Numbers& to) {
@@ -37,6 +37,7 @@ std::string numbers(const std::vector<v1::SetpointBatch>& batches, std::uint64_t
     append(batch.jerk_mm_s3(), skip, *all.mutable_jerk_mm_s3());
     append(batch.path_position_mm(), skip, *all.mutable_path_position_mm());
     append(batch.segment(), skip, *all.mutable_segment());
+    append(batch.line(), skip, *all.mutable_line());
   }
   return all.SerializeAsString();
 }
@@ -44,7 +45,9 @@ std::string numbers(const std::vector<v1::SetpointBatch>& batches, std::uint64_t
 class Setpoints : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto plan = server_.create({request(options(3)), request(path({0, 0, 0, 10, 0, 1, 10, 10, 2, -3, 4, 0.1}))});
+    v1::PathChunk chunk = path({0, 0, 0, 10, 0, 1, 10, 10, 2, -3, 4, 0.1});
+    for (const std::uint32_t line : {1U, 20U, 21U, 7U}) chunk.add_line(line);
+    const auto plan = server_.create({request(options(3)), request(chunk)});
     ASSERT_TRUE(plan.status.ok()) << plan.status.error_message();
     plan_ = plan.message;
   }
@@ -145,6 +148,7 @@ TEST_F(Setpoints, CarryTheChannelsAskedForAndNoOthers) {
     EXPECT_EQ(batch.jerk_mm_s3(2).values_size(), batch.position_mm(0).values_size());
     EXPECT_EQ(batch.path_position_mm_size(), 0);
     EXPECT_EQ(batch.segment_size(), 0);
+    EXPECT_EQ(batch.line_size(), 0);
   }
 }
 

@@ -54,7 +54,7 @@ TEST_F(Replicas, StreamWhatTheOtherHasMadeAndForgetWhatItHasForgotten) {
   const auto plan = one.create(request_of(1));
   ASSERT_TRUE(plan.status.ok()) << plan.status.error_message();
   auto request = setpoints(plan.message.name(), 1e-3);
-  for (const auto channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_JERK, v1::CHANNEL_SEGMENT})
+  for (const auto channel : {v1::CHANNEL_VELOCITY, v1::CHANNEL_JERK, v1::CHANNEL_SEGMENT, v1::CHANNEL_LINE})
     request.add_channels(channel);
   const auto expected = one.stream(request);
   const auto streamed = other.stream(request);

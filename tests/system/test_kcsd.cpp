@@ -54,6 +54,7 @@ std::vector<v1::CreatePlanRequest> request_of(std::uint64_t number, int moves) {
   double x = 0, y = 0;
   for (int move = 0; move <= moves; ++move) {
     for (const double number_of_axis : {x, y, 0.001 * static_cast<double>(number)}) path.add_points_mm(number_of_axis);
+    path.add_line(static_cast<std::uint32_t>(1 + move / 2));
     x += 10 * std::cos(move * move);
     y += 10 * std::sin(move * move);
   }

@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds kRest{50};  // so that the server has taken 
 
 class Notice : public planning::PlanReceiver {
  public:
-  void take(const planning::Vector&) override {}
+  void take(const planning::Segment&) override {}
   void take(const motion::Phase&) override { moved_ = true; }
   void take(const planning::Corner&) override {}
   void take(const planning::MarkerAt&) override {}

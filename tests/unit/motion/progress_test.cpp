@@ -47,7 +47,21 @@ TEST(Path, ForgetsWhatIsNotNeeded) {
   EXPECT_EQ(path.way_to(1), 1);
   EXPECT_EQ(path.way_to(2), 3);
   EXPECT_EQ(path.length(), 7);
-  EXPECT_EQ(path.bytes(), 3 * 32U);
+  EXPECT_EQ(path.bytes(), 3 * 32U + 12);
+}
+
+TEST(Path, KnowsTheLineOfEachSegmentAndCountsItsMemory) {
+  Path path;
+  path.add({1, 0, 0}, 4);
+  path.add({2, 0, 0}, 5);
+  path.add({3, 0, 0});
+  EXPECT_EQ(path.line_of(0), 4U);
+  EXPECT_EQ(path.line_of(1), 5U);
+  EXPECT_EQ(path.line_of(2), 0U);
+  EXPECT_EQ(path.bytes(), 4 * 32U + 2 * 12U);
+  path.forget_before(2);
+  EXPECT_EQ(path.line_of(2), 0U);
+  EXPECT_EQ(path.bytes(), 2 * 32U + 12U);
 }
 
 TEST(Progress, CountsTheSegmentsOfAStraightLine) {
@@ -171,12 +185,13 @@ TEST(LivePlaces, AreThoseOfTheWholeTrajectory) {
     std::uint32_t known = 0;
     std::uint64_t index = 0;
     for (const Phase& phase : zigzag.phases) {
-      for (; known <= phase.segments.last; ++known) live.add(zigzag.path.start_of(known + 1));
+      for (; known <= phase.segments.last; ++known) live.add(zigzag.path.start_of(known + 1), known / 3);
       live.add(phase);
       for (; setpoint_time(index, period) < phase.end_time(); ++index) {
         const Place expected = stored.at(index), place = live.next();
         ASSERT_EQ(place.way, expected.way) << index;
         ASSERT_EQ(place.segment, expected.segment) << index;
+        ASSERT_EQ(live.path().line_of(place.segment), place.segment / 3) << index;
       }
     }
     EXPECT_EQ(live.end().way, zigzag.path.length());

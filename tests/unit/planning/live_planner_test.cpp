@@ -24,7 +24,7 @@ PlanOptions options() { return options_for(2000, 1e5, ToleranceKind::kContourErr
 
 class Received : public PlanReceiver {
  public:
-  void take(const Vector& segment_end) override { ends.push_back(segment_end); }
+  void take(const Segment& segment) override { ends.push_back(segment.end); }
   void take(const Phase& phase) override { phases.push_back(phase); }
   void take(const Corner& corner) override { corners.push_back(corner); }
   void take(const MarkerAt& /*marker*/) override {}
