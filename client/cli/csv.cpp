@@ -22,6 +22,7 @@ void append_columns(std::string& text, const client::SetpointBatch& batch, std::
     fmt::format_to(std::back_inserter(text), "{:.15g}{}", batch.path_position_mm[row], separator);
   }
   if (!batch.segment.empty()) fmt::format_to(std::back_inserter(text), "{}{}", batch.segment[row], separator);
+  if (!batch.line.empty()) fmt::format_to(std::back_inserter(text), "{}{}", batch.line[row], separator);
   text.back() = '\n';
 }
 

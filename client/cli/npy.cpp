@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <ostream>
+#include <string_view>
 
 #include "client/common/file_error.h"
 
@@ -19,6 +20,12 @@ constexpr std::size_t kPrefixBytes = 10;  // magic, version, length of the rest
 template <typename Number>
 void append(std::string& bytes, Number number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+// As add() writes it.
+std::string_view type_of(std::string_view column) {
+  if (column == "segment") return "<u8";
+  return column == "line" ? "<u4" : "<f8";
 }
 
 void require_written(const std::ostream& out) {
@@ -47,6 +54,7 @@ void NpyWriter::add(const client::SetpointBatch& batch) {
     }
     if (!batch.path_position_mm.empty()) append(bytes, batch.path_position_mm[row]);
     if (!batch.segment.empty()) append(bytes, batch.segment[row]);
+    if (!batch.line.empty()) append(bytes, batch.line[row]);
   }
   setpoints_ += batch.size();
   require_written(out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())));
@@ -61,7 +69,7 @@ void NpyWriter::finish() {
 void NpyWriter::write_header() {
   std::string fields;
   for (const std::string& name : columns_.names()) {
-    fields += fmt::format("('{}', '{}'), ", name, name == "segment" ? "<u8" : "<f8");
+    fields += fmt::format("('{}', '{}'), ", name, type_of(name));
   }
   const std::string text =
       fmt::format("{{'descr': [{}], 'fortran_order': False, 'shape': ({},), }}", fields, setpoints_);

@@ -16,11 +16,9 @@ std::string footer() {
   return std::string("Without --server everything is computed inside this process.\n") + client::kExitCodeHelp + ".";
 }
 
-const std::map<std::string, Channel> kChannels = {{"velocity", Channel::kVelocity},
-                                                  {"acceleration", Channel::kAcceleration},
-                                                  {"jerk", Channel::kJerk},
-                                                  {"path-position", Channel::kPathPosition},
-                                                  {"segment", Channel::kSegment}};
+const std::map<std::string, Channel> kChannels = {
+    {"velocity", Channel::kVelocity},          {"acceleration", Channel::kAcceleration}, {"jerk", Channel::kJerk},
+    {"path-position", Channel::kPathPosition}, {"segment", Channel::kSegment},           {"line", Channel::kLine}};
 
 const std::map<std::string, SetpointFormat> kFormats = {
     {"csv", SetpointFormat::kCsv}, {"npy", SetpointFormat::kNumPy}, {"hal", SetpointFormat::kStreamer}};
@@ -64,7 +62,8 @@ void add_channels(CLI::App& app, Options& options) {
          [&options](const std::vector<std::string>& names) {
            for (const std::string& name : names) options.channels.push_back(kChannels.at(name));
          },
-         "further columns: velocity,acceleration,jerk,\npath-position (mm of the way),segment (from 0)")
+         "further columns: velocity,acceleration,jerk,\npath-position (mm of the way),segment (from 0),\nline (of the "
+         "program, from 1)")
       ->delimiter(',')
       ->check(CLI::IsMember(&kChannels))
       ->option_text("LIST");

@@ -35,6 +35,7 @@ std::vector<std::string> SetpointColumns::names() const {
   }
   if (has(Channel::kPathPosition)) names.emplace_back("path_position");
   if (has(Channel::kSegment)) names.emplace_back("segment");
+  if (has(Channel::kLine)) names.emplace_back("line");
   return names;
 }
 

@@ -26,7 +26,7 @@ struct SetpointColumns {
   double period_s = 0;
 
   // "t", "x", "y", "z", and for each channel asked for its columns: vx… (mm/s), ax… (mm/s²), jx… (mm/s³),
-  // path_position (mm), segment (a whole number). Always in that order.
+  // path_position (mm), segment, line (whole numbers). Always in that order.
   std::vector<std::string> names() const;
 };
 

@@ -85,6 +85,8 @@ v1::Channel to_message(Channel channel) {
       return v1::CHANNEL_PATH_POSITION;
     case Channel::kSegment:
       return v1::CHANNEL_SEGMENT;
+    case Channel::kLine:
+      return v1::CHANNEL_LINE;
   }
   return v1::CHANNEL_UNSPECIFIED;
 }
@@ -330,6 +332,7 @@ void from_message(const v1::SetpointBatch& message, SetpointBatch& batch) {
   copy_columns(message.jerk_mm_s3(), batch.jerk_mm_s3);
   batch.path_position_mm.assign(message.path_position_mm().begin(), message.path_position_mm().end());
   batch.segment.assign(message.segment().begin(), message.segment().end());
+  batch.line.assign(message.line().begin(), message.line().end());
   batch.end_of_path = message.end_of_path();
   batch.setpoint_count = message.setpoint_count();
 }

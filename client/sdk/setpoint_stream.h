@@ -10,7 +10,7 @@
 namespace kcs::client {
 
 // What a setpoint carries beside the position.
-enum class Channel { kVelocity, kAcceleration, kJerk, kPathPosition, kSegment };
+enum class Channel { kVelocity, kAcceleration, kJerk, kPathPosition, kSegment, kLine };
 
 struct StreamOptions {
   double period_s = 0.001;        // between two setpoints, 1e-5 to 10
@@ -32,13 +32,14 @@ using Columns = std::vector<std::vector<double>>;
 struct SetpointBatch {
   std::uint64_t first_index = 0;
   Columns position_mm;
-  Columns velocity_mm_s;  // this and the next four: empty unless asked for
+  Columns velocity_mm_s;  // this and the next five: empty unless asked for
   Columns acceleration_mm_s2;
   Columns jerk_mm_s3;
-  // The place of the programmed path that the tool is at: the way from its start to there, which never falls, and the
-  // segment that it lies on, from 0.
+  // The place of the programmed path that the tool is at: the way from its start to there, which never falls, the
+  // segment that it lies on, from 0, and the line of the program that this comes from, from 1 (0: not known).
   std::vector<double> path_position_mm;
   std::vector<std::uint64_t> segment;
+  std::vector<std::uint32_t> line;
   bool end_of_path = false;          // the last setpoint of this batch is the exact end of the path
   std::uint64_t setpoint_count = 0;  // of the whole plan at this period
 

@@ -5,7 +5,7 @@ import pytest
 
 import kcs
 
-ALL = ("velocity", "acceleration", "jerk", "path_position", "segment")
+ALL = ("velocity", "acceleration", "jerk", "path_position", "segment", "line")
 
 
 def test_they_start_and_end_at_rest_on_the_ends_of_the_path(circle: kcs.Plan) -> None:
@@ -33,12 +33,29 @@ def test_they_keep_the_limits_and_fit_each_other(circle: kcs.Plan) -> None:
     assert setpoints.segment[-1] == circle.summary.segment_count - 1
 
 
+def test_lines_are_those_of_the_program(client: kcs.Client, table: kcs.Machine) -> None:
+    loop = "F3000\n#1=0\no1 while [#1 LT 2]\nG1 X10\nX0\n#1=[#1+1]\no1 endwhile\nG1 Y5\n"
+    setpoints = client.plan(gcode=loop, machine=table).setpoints(0.001, ["line", "segment"])
+    assert setpoints.line.dtype == np.uint32
+    line_of_segment = np.array([4, 5, 4, 5, 8])
+    assert np.array_equal(setpoints.line, line_of_segment[setpoints.segment])
+    assert set(setpoints.line) == {4, 5, 8}
+
+
+def test_points_have_the_lines_that_were_given(client: kcs.Client, table: kcs.Machine, circle: kcs.Plan) -> None:
+    plan = client.plan(points=[[0, 0], [5, 0], [5, 5]], machine=table, feed=100, lines=[1, 30, 20])
+    line = plan.setpoints(0.001, ["line"]).line
+    assert line[0] == 30 and line[-1] == 20 and set(line) == {20, 30}
+    assert not circle.setpoints(0.001, ["line"]).line.any()
+
+
 def test_batches_are_the_same_in_pieces(circle: kcs.Plan) -> None:
     whole = circle.setpoints(0.001, ALL)
     batches = list(circle.setpoint_batches(0.001, ALL, batch_size=100))
     assert [len(batch) for batch in batches[:-1]] == [100] * (len(batches) - 1)
     assert [batch.first_index for batch in batches] == list(range(0, len(whole), 100))
-    for name in ("position_mm", "velocity_mm_s", "acceleration_mm_s2", "jerk_mm_s3", "path_position_mm", "segment"):
+    names = ("position_mm", "velocity_mm_s", "acceleration_mm_s2", "jerk_mm_s3", "path_position_mm", "segment", "line")
+    for name in names:
         assert np.array_equal(np.concatenate([getattr(batch, name) for batch in batches]), getattr(whole, name))
     assert np.array_equal(np.concatenate([batch.time_s for batch in batches]), whole.time_s)
 
@@ -61,7 +78,7 @@ def test_a_channel_that_was_not_asked_for_says_so(circle: kcs.Plan) -> None:
 
 
 def test_an_unknown_channel_is_refused_with_those_that_there_are(circle: kcs.Plan) -> None:
-    with pytest.raises(ValueError, match="velocity, acceleration, jerk, path_position, segment"):
+    with pytest.raises(ValueError, match="velocity, acceleration, jerk, path_position, segment, line"):
         circle.setpoints(0.001, ["speed"])  # type: ignore[list-item]
 
 

@@ -128,8 +128,8 @@ TEST_F(Kcsctl, StreamWritesTheChannelsAskedFor) {
 TEST_F(Kcsctl, StreamWritesWhatNumPyReads) {
   if (kcs::test::run({"/usr/bin/python3", "-c", "import numpy"}).exit_code != 0) GTEST_SKIP() << "there is no NumPy";
   for (const char* command : {"stream", "live"}) {
-    ASSERT_EQ(run({command, program(), "-o", path("out.npy"), "--channels", "velocity,segment"}).exit_code, 0);
-    ASSERT_EQ(run({command, program(), "-o", path("out.csv"), "--channels", "velocity,segment"}).exit_code, 0);
+    ASSERT_EQ(run({command, program(), "-o", path("out.npy"), "--channels", "velocity,segment,line"}).exit_code, 0);
+    ASSERT_EQ(run({command, program(), "-o", path("out.csv"), "--channels", "velocity,segment,line"}).exit_code, 0);
     const Result compared = kcs::test::run(
         {"/usr/bin/python3", "-c",
          "import numpy, sys\n"
@@ -137,6 +137,7 @@ TEST_F(Kcsctl, StreamWritesWhatNumPyReads) {
          "csv = numpy.genfromtxt(sys.argv[2], delimiter=',', names=True)\n"
          "assert npy.dtype.names == csv.dtype.names, npy.dtype\n"
          "assert npy['segment'].dtype == numpy.uint64\n"
+         "assert npy['line'].dtype == numpy.uint32 and npy['line'][-1] > npy['line'][0] > 0, npy['line']\n"
          "for name in npy.dtype.names: numpy.testing.assert_allclose(npy[name], csv[name], rtol=1e-14, atol=1e-300)\n"
          "print(len(npy))\n",
          path("out.npy"), path("out.csv")});

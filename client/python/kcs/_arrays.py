@@ -7,5 +7,6 @@ import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 IndexArray: TypeAlias = npt.NDArray[np.uint64]
+LineArray: TypeAlias = npt.NDArray[np.uint32]
 # Arrays whose elements have named fields.
 Table: TypeAlias = npt.NDArray[Any]

@@ -167,7 +167,8 @@ class Plan(PlanRecord):
         """The plan sampled at a fixed period, as arrays. ``setpoint_batches`` gives what would not fit the memory.
 
         period: time between two setpoints, s, 1e-5 to 10.
-        channels: what is wanted beside the position: "velocity", "acceleration", "jerk", "path_position", "segment".
+        channels: what is wanted beside the position: "velocity", "acceleration", "jerk", "path_position", "segment",
+            "line".
         first, last: indices of the first and last setpoint wanted. Default: the whole plan.
         """
         return join(list(self.setpoint_batches(period, channels, first=first, last=last, batch_size=16384)))

@@ -7,11 +7,11 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from kcs import _contract
-from kcs._arrays import FloatArray, IndexArray, Table
+from kcs._arrays import FloatArray, IndexArray, LineArray, Table
 
 __all__ = ["Channel", "Setpoints"]
 
-Channel: TypeAlias = Literal["velocity", "acceleration", "jerk", "path_position", "segment"]
+Channel: TypeAlias = Literal["velocity", "acceleration", "jerk", "path_position", "segment", "line"]
 
 _CHANNELS = _contract.enum_values("Channel")
 del _CHANNELS["position"]  # is sent in any case
@@ -74,6 +74,11 @@ class Setpoints:
         """Shape (n,): the segment of the path that this place lies on, from 0."""
         return self._column("segment")
 
+    @property
+    def line(self) -> LineArray:
+        """Shape (n,): the line of the program that this segment comes from, from 1; 0 if not known."""
+        return self._column("line")
+
     def _column(self, channel: str) -> Table:
         if channel not in self.columns:
             raise AttributeError(f"these setpoints carry no {channel}: ask for it with channels=[{channel!r}]")
@@ -128,6 +133,8 @@ class SetpointRequest:
 def _column(batch: _contract.Message, channel: str) -> Any:
     if channel == "segment":
         return np.array(batch.segment, dtype=np.uint64)
+    if channel == "line":
+        return np.array(batch.line, dtype=np.uint32)
     if channel == "path_position":
         return _contract.from_packed(batch.path_position_mm)
     axes = getattr(batch, _PER_AXIS[channel])

@@ -55,7 +55,7 @@ TEST(CommandLine, EveryOptionArrives) {
                                          "--period",
                                          "0.004",
                                          "--channels",
-                                         "jerk,velocity,path-position,segment"});
+                                         "jerk,velocity,path-position,segment,line"});
   ASSERT_FALSE(message.has_value()) << message->text;
   EXPECT_EQ(options.command, Command::kStream);
   EXPECT_EQ(options.file, "-");
@@ -68,9 +68,9 @@ TEST(CommandLine, EveryOptionArrives) {
   EXPECT_EQ(options.plan.start_mm, (std::vector<double>{-1, 2, -3.5}));
   EXPECT_EQ(options.server.address, "localhost:1");
   EXPECT_EQ(options.period_s, 0.004);
-  EXPECT_EQ(options.channels,
-            (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity,
-                                          client::Channel::kPathPosition, client::Channel::kSegment}));
+  EXPECT_EQ(options.channels, (std::vector<client::Channel>{client::Channel::kJerk, client::Channel::kVelocity,
+                                                            client::Channel::kPathPosition, client::Channel::kSegment,
+                                                            client::Channel::kLine}));
 }
 
 TEST(CommandLine, CertificatesMeanTls) {

@@ -13,8 +13,8 @@ TEST(Csv, HeaderNamesTheColumnsOfTheMachine) {
   EXPECT_EQ(csv_header({2, {Channel::kJerk, Channel::kVelocity}}), "t,x,y,vx,vy,jx,jy\n");
   EXPECT_EQ(csv_header({3, {Channel::kVelocity, Channel::kAcceleration, Channel::kJerk}}),
             "t,x,y,z,vx,vy,vz,ax,ay,az,jx,jy,jz\n");
-  EXPECT_EQ(csv_header({2, {Channel::kSegment, Channel::kVelocity, Channel::kPathPosition}}),
-            "t,x,y,vx,vy,path_position,segment\n");
+  EXPECT_EQ(csv_header({2, {Channel::kLine, Channel::kSegment, Channel::kVelocity, Channel::kPathPosition}}),
+            "t,x,y,vx,vy,path_position,segment,line\n");
 }
 
 TEST(Csv, RowsHaveFifteenSignificantDigits) {
@@ -39,7 +39,8 @@ TEST(Csv, ChannelsFollowThePosition) {
   EXPECT_EQ(csv_rows(batch, 1), "0,1,2,3,4,5,6,7,8\n");
   batch.path_position_mm = {9.5};
   batch.segment = {10};
-  EXPECT_EQ(csv_rows(batch, 1), "0,1,2,3,4,5,6,7,8,9.5,10\n");
+  batch.line = {4'294'967'295};
+  EXPECT_EQ(csv_rows(batch, 1), "0,1,2,3,4,5,6,7,8,9.5,10,4294967295\n");
 }
 
 TEST(Streamer, RowsHaveNeitherTimeNorCommas) {
@@ -48,6 +49,8 @@ TEST(Streamer, RowsHaveNeitherTimeNorCommas) {
   batch.position_mm = {{1, 2}, {0.1, -4}};
   batch.velocity_mm_s = {{5, 6}, {7, 8}};
   EXPECT_EQ(streamer_rows(batch), "1 0.1 5 7\n2 -4 6 8\n");
+  batch.line = {12, 13};
+  EXPECT_EQ(streamer_rows(batch), "1 0.1 5 7 12\n2 -4 6 8 13\n");
 }
 
 }  // namespace

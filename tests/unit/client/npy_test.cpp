@@ -45,13 +45,31 @@ TEST(Npy, IsAnArrayOfRecords) {
   EXPECT_EQ(number(8, 0.0), 1.0);  // the third
 }
 
+TEST(Npy, WritesLinesInFourBytes) {
+  std::stringstream file;
+  NpyWriter writer({2, {Channel::kLine}, 1}, file);
+  client::SetpointBatch batch;
+  batch.position_mm = {{1, 2}, {3, 4}};
+  batch.line = {7, 4'294'967'295};
+  writer.add(batch);
+  writer.finish();
+  const std::string bytes = file.str();
+  constexpr std::size_t kRecord = 3 * sizeof(double) + sizeof(std::uint32_t);
+  ASSERT_EQ(bytes.size(), kHead + 2 * kRecord);
+  EXPECT_EQ(bytes.substr(kHead + kRecord - 4, 4), std::string("\x07\x00\x00\x00", 4));
+  EXPECT_EQ(bytes.substr(kHead + 2 * kRecord - 4), "\xff\xff\xff\xff");
+}
+
 TEST(Npy, HasRoomForEveryColumn) {
   std::stringstream file;
-  const SetpointColumns columns{
-      3, {Channel::kVelocity, Channel::kAcceleration, Channel::kJerk, Channel::kPathPosition, Channel::kSegment}, 1};
+  const SetpointColumns columns{3,
+                                {Channel::kVelocity, Channel::kAcceleration, Channel::kJerk, Channel::kPathPosition,
+                                 Channel::kSegment, Channel::kLine},
+                                1};
   NpyWriter(columns, file).finish();
   EXPECT_EQ(file.str().size(), kHead);
-  EXPECT_NE(file.str().find("('segment', '<u8'), ], 'fortran_order': False, 'shape': (0,), }"), std::string::npos);
+  EXPECT_NE(file.str().find("('segment', '<u8'), ('line', '<u4'), ], 'fortran_order': False, 'shape': (0,), }"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -233,8 +233,9 @@ TEST_F(PlannerTest, StreamsGiveEverySetpointOnceAndResume) {
 }
 
 TEST_F(PlannerTest, StreamsSayHowFarAlongThePathTheToolIs) {
-  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 3, 4, 3, 10}}, options());
-  auto stream = planner_.stream_setpoints(plan.name, {.channels = {Channel::kPathPosition, Channel::kSegment}});
+  const Plan plan = planner_.plan_points({.points_mm = {0, 0, 3, 4, 3, 10}, .line = {1, 8, 5}}, options());
+  auto stream =
+      planner_.stream_setpoints(plan.name, {.channels = {Channel::kPathPosition, Channel::kSegment, Channel::kLine}});
   SetpointBatch batch;
   ASSERT_TRUE(stream.next(batch));
   ASSERT_EQ(batch.path_position_mm.size(), batch.size());
@@ -243,6 +244,9 @@ TEST_F(PlannerTest, StreamsSayHowFarAlongThePathTheToolIs) {
   EXPECT_EQ(batch.path_position_mm.back(), 11);
   EXPECT_EQ(batch.segment.front(), 0);
   EXPECT_EQ(batch.segment.back(), 1);
+  ASSERT_EQ(batch.line.size(), batch.size());
+  EXPECT_EQ(batch.line.front(), 8);
+  EXPECT_EQ(batch.line.back(), 5);
 }
 
 TEST_F(PlannerTest, StreamsComeAtThePaceThatIsAskedFor) {
