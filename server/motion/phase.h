@@ -40,6 +40,9 @@ struct Phase {
   }
 
   double end_time() const { return start_time + duration; }
+
+  // Nothing moves meanwhile: a dwell.
+  bool rests() const { return start.velocity.isZero(0) && start.acceleration.isZero(0) && jerk.isZero(0); }
 };
 
 }  // namespace kcs::motion

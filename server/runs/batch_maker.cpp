@@ -26,6 +26,7 @@ std::optional<Batch> BatchMaker::next(const ClockState& from, double rate) {
     if (auto found = next(from, rate, care)) return found;
   }
   if (rate > 1) return next(from, 1);
+  if (rate > 0 && dwells(from)) return next(from, 0);  // to the end of the dwell
   for (const Care& care : Care::all()) {
     if (auto course = stop(from, care)) {
       const ClockCourse tail = course->cut(duration());
@@ -46,9 +47,7 @@ std::optional<ClockCourse> BatchMaker::lead(const ClockState& from, double rate,
   Pacing pacing(plan_, limits_, step(care), care.share);
   ClockCourse course(from);
   for (double left = duration(); left > duration() * 1e-9; left = duration() - course.duration()) {
-    const auto stretch = pacing.next(course.end(), rate, left);
-    if (!stretch) return {};
-    course.add(*stretch, Pacing::after(*stretch, rate));
+    if (!pacing.lead(course, rate, left)) return {};
   }
   return verified(course) ? std::optional(course) : std::nullopt;
 }
@@ -57,10 +56,8 @@ std::optional<ClockCourse> BatchMaker::stop(const ClockState& from, const Care& 
   const double longest = static_cast<double>(options_.tail_capacity) * options_.period;
   Pacing pacing(plan_, limits_, step(care), care.share);
   ClockCourse course(from);
-  while (!course.end().rests() && !has_ended(course.end())) {
-    const auto stretch = pacing.next(course.end(), 0, longest);
-    if (!stretch || course.duration() + stretch->duration > longest) return {};
-    course.add(*stretch, Pacing::after(*stretch, 0));
+  while (!at_rest(course.end())) {
+    if (!pacing.lead(course, 0, longest) || course.duration() > longest) return {};
   }
   return verified(course) ? std::optional(course) : std::nullopt;
 }
@@ -86,8 +83,8 @@ Batch BatchMaker::batch(const ClockState& from, const ClockCourse& course, const
   made.end_of_plan = has_ended(made.end);
   if (made.end_of_plan) {
     made.end = {plan_.duration(), 0, 0};
-    while (made.positions.size() > 1 && made.positions.end()[-2] == made.positions.back()) made.positions.pop_back();
-    way.times.resize(made.positions.size());
+    while (way.times.size() > 1 && way.times.end()[-2] >= plan_.duration()) way.times.pop_back();
+    made.positions.resize(way.times.size());
   } else {
     const double periods = tail.duration() / options_.period;
     made.tail = sample(tail, static_cast<std::size_t>(std::ceil(periods * (1 - 1e-12))), way.times);

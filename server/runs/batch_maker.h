@@ -31,7 +31,8 @@ struct Batch {
 };
 
 // Batches of one plan for one machine. A batch depends on the plan, the state that it goes on from and the rate alone:
-// who knows that state can go on from it, on any server. Every batch and every tail was verified against the limits of
+// who knows that state can go on from it, on any server. Dwells last as long as planned at any rate; at the rate 0 the
+// run waits at a dwell's end. Every batch and every tail was verified against the limits of
 // the plan, exactly (paced_motion.h). For one thread.
 class BatchMaker {
  public:
@@ -54,6 +55,9 @@ class BatchMaker {
   std::vector<motion::Vector> sample(const ClockCourse& course, std::size_t count, std::vector<double>& times);
   double duration() const { return static_cast<double>(options_.setpoints) * options_.period; }
   bool has_ended(const ClockState& state) const { return state.plan_time >= plan_.duration(); }
+  // Likewise beyond the end.
+  bool dwells(const ClockState& state) { return plan_.phase(plan_.find(state.plan_time)).rests(); }
+  bool at_rest(const ClockState& state) { return state.rests() || dwells(state); }
 
   motion::AxisLimits limits_;
   BatchOptions options_;

@@ -1,4 +1,5 @@
-// The plan's time as a function of the machine's: how holds and overrides change the pace and never the path.
+// The plan's time as a function of the machine's: how holds and overrides change the pace and never the path. While the
+// plan dwells, nothing moves and the clock may jump: there it goes as planned.
 #pragma once
 
 namespace kcs::runs {
@@ -25,6 +26,12 @@ struct ClockPhase {
             start.rate + time * start.rate_change + half_square * bend, start.rate_change + time * bend};
   }
   ClockState end() const { return at(duration); }
+
+  double lowest_rate() const;
+
+  // When the clock, which must not go back, comes to `plan_time`, s after the start of the phase; between `low` and
+  // `high`.
+  double time_of(double plan_time, double low, double high) const;
 };
 
 }  // namespace kcs::runs

@@ -12,7 +12,8 @@ class ClockCourse {
  public:
   explicit ClockCourse(const ClockState& start) : end_(start) {}
 
-  // Goes on with a stretch that begins where the course ends. end: its end, without what rounding leaves of it.
+  // Goes on with a stretch that begins where in the plan the course ends. end: the state to go on from after it, which
+  // is its end without what rounding leaves of it, or in a dwell has another rate.
   void add(const ClockPhase& stretch, const ClockState& end);
 
   // Takes off what lies beyond `duration` (s).

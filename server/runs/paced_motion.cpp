@@ -11,20 +11,6 @@
 namespace kcs::runs {
 namespace {
 
-// When the clock, which does not go back, comes to `plan_time`; between `low` and `high`.
-double time_of(double plan_time, const ClockPhase& clock, double low, double high) {
-  double time = low + (high - low) / 2;
-  for (int i = 0; i < 100 && high > low; ++i) {
-    const ClockState at = clock.at(time);
-    (at.plan_time < plan_time ? low : high) = time;
-    double next = at.rate > 0 ? time + (plan_time - at.plan_time) / at.rate : low;
-    if (!(next > low && next < high)) next = low + (high - low) / 2;
-    if (next == time) break;
-    time = next;
-  }
-  return time;
-}
-
 class Judge {
  public:
   Judge(const motion::Phase& phase, const ClockState& start, double bend, double duration)
@@ -68,7 +54,7 @@ std::string verify(PlanWindow& plan, const ClockPhase& clock, const motion::Axis
   for (std::size_t number = plan.find(clock.start.plan_time);; ++number) {
     const motion::Phase& phase = plan.phase(number);
     const bool last = phase.end_time() >= end;
-    const double to = last ? clock.duration : time_of(phase.end_time(), clock, from, clock.duration);
+    const double to = last ? clock.duration : clock.time_of(phase.end_time(), from, clock.duration);
     const Judge judge(phase, clock.at(from), clock.bend, to - from);
     for (Eigen::Index axis = 0; axis < static_cast<Eigen::Index>(limits.axes); ++axis) {
       if (const char* beyond = judge.judge(axis, limits)) {

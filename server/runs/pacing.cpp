@@ -17,6 +17,33 @@ constexpr double kNoRate = 1e-12, kNoRateChange = 1e-9;
 
 }  // namespace
 
+bool Pacing::lead(ClockCourse& course, double rate, double longest) {
+  const ClockState from = course.end();
+  if (plan_.phase(plan_.find(from.plan_time)).rests()) {
+    dwell(course, rate, longest);
+    return true;
+  }
+  auto stretch = next(from, rate, longest);
+  if (!stretch || stretch->lowest_rate() < -kNoRate) return false;
+  const double end = stretch->end().plan_time;
+  for (std::size_t number = plan_.find(from.plan_time) + 1; plan_.phase(number).start_time <= end; ++number) {
+    if (!plan_.phase(number).rests()) continue;
+    const double begin = plan_.phase(number).start_time;
+    stretch->duration = stretch->time_of(begin, 0, stretch->duration);
+    course.add(*stretch, {begin, 1, 0});
+    return true;
+  }
+  course.add(*stretch, after(*stretch, rate));
+  return true;
+}
+
+void Pacing::dwell(ClockCourse& course, double rate, double longest) {
+  const ClockState from{course.end().plan_time, 1, 0};
+  const double end = plan_.phase(plan_.find(from.plan_time)).end_time(), left = end - from.plan_time;
+  const ClockPhase stretch{from, 0, std::min(left, longest)};
+  course.add(stretch, left <= longest ? ClockState{end, std::min(rate, 1.0), 0} : stretch.end());
+}
+
 std::optional<ClockPhase> Pacing::next(const ClockState& from, double rate, double longest) {
   const double gap = rate - from.rate;
   const bool arrived = gap == 0 && from.rate_change == 0;
@@ -36,6 +63,7 @@ std::optional<ClockPhase> Pacing::next(const ClockState& from, double rate, doub
   return steadied(braking.end()) ? braking : ClockPhase{from, soft, step};
 }
 
+// The state after a stretch towards `rate`: exactly at the rate if that is where it leads.
 ClockState Pacing::after(const ClockPhase& stretch, double rate) {
   const ClockState end = stretch.end();
   if (std::abs(end.rate - rate) > kNoRate || std::abs(end.rate_change) > kNoRateChange) return end;

@@ -158,8 +158,9 @@ bool Staging::follow(const kcs_player_report& report) {
 
 bool Staging::may_begin() const {
   if (flowing_ || staged_.empty()) return flowing_;
-  const bool comes_to_rest = rows(staged_.back().motion.tail_mm()) == 0;
-  return comes_to_rest || static_cast<double>(held().tick() - committed_.tick()) * period_ >= commit_time_;
+  // In a dwell it rests as well, yet goes on.
+  const bool stays = rows(staged_.back().motion.tail_mm()) == 0 && held().clock().rate() == 0;
+  return stays || static_cast<double>(held().tick() - committed_.tick()) * period_ >= commit_time_;
 }
 
 void Staging::commit(kcs_player_memory& player) {

@@ -22,6 +22,78 @@ planning::Plan line(double length) {
   return planning::plan(path, machine());
 }
 
+constexpr double kDwell = 0.2345;  // s
+
+// A line, the dwell, and another line.
+planning::Plan dwelling() {
+  planning::Toolpath path;
+  path.segments.push_back({.end = {10, 0, 0}, .feed = kFeed, .tolerance = 0.01, .stop = true});
+  path.segments.back().dwell = kDwell;
+  path.segments.push_back({.end = {10, 10, 0}, .feed = kFeed, .tolerance = 0.01});
+  return planning::plan(path, machine());
+}
+
+// Where the plan is after the setpoints that a run at this rate gives until it is beyond the dwell, or has rested
+// there.
+struct Passage {
+  std::size_t dwelling = 0;  // setpoints in the corner
+  ClockState end;
+};
+
+Passage pass(BatchMaker& maker, ClockState from, double rate) {
+  Passage passage{.end = from};
+  for (int i = 0; i < 500 && passage.end.plan_time < kDwell + 0.6; ++i) {
+    const auto batch = maker.next(passage.end, rate);
+    if (!batch) break;
+    for (const motion::Vector& position : batch->positions) {
+      passage.dwelling += position == motion::Vector(10, 0, 0) ? 1 : 0;
+    }
+    passage.end = batch->end;
+    if (batch->end_of_plan) break;
+  }
+  return passage;
+}
+
+double dwell_begin(const planning::Plan& plan) {
+  for (const motion::Phase& phase : plan.trajectory) {
+    if (phase.rests()) return phase.start_time;
+  }
+  return -1;
+}
+
+TEST(BatchMaker, DwellsAsLongAsProgrammedAtAnyRate) {
+  const planning::Plan plan = dwelling();
+  for (const double rate : {0.1, 0.5, 1.0, 1.7, 2.0}) {
+    BatchMaker maker(plan, machine().limits, {});
+    const Passage passage = pass(maker, {0, 0, 0}, rate);
+    // At its ends the motion is slower than what can be told from rest.
+    EXPECT_NEAR(0.001 * static_cast<double>(passage.dwelling), kDwell, 0.003) << rate;
+    EXPECT_GT(passage.end.plan_time, dwell_begin(plan) + kDwell) << rate;
+  }
+}
+
+TEST(BatchMaker, WaitsAtTheEndOfADwellAtTheRateZero) {
+  const planning::Plan plan = dwelling();
+  BatchMaker maker(plan, machine().limits, {});
+  const double begin = dwell_begin(plan);
+  const Passage passage = pass(maker, {begin + 0.1, 1, 0}, 0);
+  EXPECT_EQ(passage.end.plan_time, begin + kDwell);
+  EXPECT_TRUE(passage.end.rests());
+}
+
+TEST(BatchMaker, AHeldDwellGoesOnWhereItWas) {
+  const planning::Plan plan = dwelling();
+  const double begin = dwell_begin(plan);
+  BatchMaker maker(plan, machine().limits, {});
+  const auto batch = maker.next({begin + 0.1, 1, 0}, 0.5);
+  ASSERT_TRUE(batch);
+  EXPECT_TRUE(batch->tail.empty()) << "it rests";
+  EXPECT_NEAR(batch->tail_end, begin + 0.12, 1e-12);
+  const auto resumed = BatchMaker(plan, machine().limits, {}).next({batch->tail_end, 0, 0}, 0.5);
+  ASSERT_TRUE(resumed);
+  EXPECT_NEAR(resumed->end.plan_time, begin + 0.14, 1e-12);
+}
+
 TEST(BatchMaker, AtThePlannedPaceGivesThePlansOwnSetpoints) {
   const planning::Plan plan = line(100);
   BatchMaker maker(plan, machine().limits, {});
