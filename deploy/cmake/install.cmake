@@ -22,7 +22,7 @@ function(kcs_public_headers part folder)
 endfunction()
 kcs_public_headers(client client/sdk connection.h error.h live_stream.h machine.h machine_profile.h machines.h plan.h
                    plan_list.h planner.h run.h setpoint_stream.h settings_error.h)
-kcs_public_headers(motion server/motion limits.h path.h phase.h phase_code.h place_sampler.h progress.h line.h
+kcs_public_headers(motion server/motion limits.h path.h phase.h phase_code.h place_sampler.h program_lines.h progress.h line.h
                    sampler.h setpoint.h straight_run.h trajectory.h)
 kcs_public_headers(planning server/planning corner.h corner_list.h invalid_input.h marker.h options.h plan.h plan_path.h
                    range.h stopped.h toolpath.h)
