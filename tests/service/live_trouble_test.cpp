@@ -221,7 +221,7 @@ TEST(LiveStop, LetsARunningCallFinish) {
   for (const auto& message : messages) ASSERT_TRUE(client.write(message));
   v1::PlanLiveResponse response;
   ASSERT_TRUE(client.read(response));
-  std::jthread stopping([&] { server.server().stop(std::chrono::seconds(30)); });
+  std::jthread stopping([&] { server.server().stop(std::chrono::minutes(5)); });
   EXPECT_TRUE(eventually(
       [&] { return LiveClient(server).exchange(messages).status.error_code() == grpc::StatusCode::UNAVAILABLE; }));
   client.end_path();
