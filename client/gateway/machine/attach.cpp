@@ -25,7 +25,8 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kFeedEvery{4};
 constexpr milliseconds kLookForRest{5};
-constexpr time_t kLookForTicks = 2;       // s: far more than a period
+constexpr time_t kLookForTicks = 2;  // s: far more than a period
+constexpr int kUnreadAtMost = 3;
 constexpr milliseconds kLastReport{100};  // for the server to hear that the machine rests
 constexpr double kLongestTail = KCS_PLAYER_SETPOINTS;
 constexpr double kMoreThanATail = 5;  // s
@@ -118,8 +119,17 @@ v1::MachineHello make_hello(const Settings& settings, const kcs_player_profile& 
 // unloaded, and its memory is nobody's now.
 bool wait_for_end(const EndSignals& end, const kcs_player_memory& memory) {
   std::optional<std::uint64_t> ticks;
-  for (kcs_player_report report{}; kcs_player_read(&memory, &report) && report.ticks != ticks;) {
-    ticks = report.ticks;
+  // Who writes the report may be kept from running just then; once in a while that means nothing.
+  for (int unread = 0; unread < kUnreadAtMost;) {
+    kcs_player_report report{};
+    if (!kcs_player_read(&memory, &report)) {
+      ++unread;
+    } else if (report.ticks == ticks) {
+      return false;
+    } else {
+      ticks = report.ticks;
+      unread = 0;
+    }
     if (end.wait_for(kLookForTicks)) return true;
   }
   return false;
