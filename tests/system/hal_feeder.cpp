@@ -1,6 +1,6 @@
 // hal_feeder MEMORY LENGTH: what the gateway is to the HAL component: feeds one run along a line of LENGTH mm through
 // the shared memory /kcs-MEMORY, from wherever the player has come to, and ends with the run. Says "feeding"
-// when it begins to, and "end". It keeps nothing that it
+// when the player has its first batch, and "end". It keeps nothing that it
 // does not find in the memory, so that it may be killed at any instant.
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "tests/line_motion/line_motion.h"
 
@@ -44,12 +45,13 @@ void feed(kcs_player_memory& memory, double length) {
   kcs_player_report report{};
   std::optional<std::uint64_t> fed_branch;
   std::uint64_t fed_to = 0;
+  bool begins = false;
   do {
     if (!kcs_player_read(&memory, &report)) continue;
     const bool rests = report.state == KCS_PLAYER_READY || report.state == KCS_PLAYER_HELD;
     if (rests && fed_branch != report.branch && report.batches == memory.put) {
       run.begin(1, report.branch, report.played, line.place_of(report.command_mm));
-      if (!fed_branch) say("feeding");
+      begins = !fed_branch;
       fed_branch = report.branch;
       fed_to = report.played;
     }
@@ -62,6 +64,7 @@ void feed(kcs_player_memory& memory, double length) {
     run.write(*slot);
     fed_to = end_of(*slot);
     kcs_player_put(&memory);
+    if (std::exchange(begins, false)) say("feeding");
   } while (report.state != KCS_PLAYER_READY || report.reason != KCS_PLAYER_END);
 }
 

@@ -20,9 +20,10 @@ namespace fs = std::filesystem;
 const fs::path kModules = "/usr/lib/linuxcnc/modules";
 const std::string kUser = "20001";  // any that nobody has
 
-// The sampler takes the commands in millionths, for it is printed with six decimals.
+// The sampler takes the commands in millionths, for it is printed with six decimals. It keeps a minute: what prints it
+// may wait for a busy disk.
 constexpr double kUnit = 1e-6;
-constexpr const char* kRecord = R"(loadrt sampler depth=8000 cfg=fffsu
+constexpr const char* kRecord = R"(loadrt sampler depth=60000 cfg=fffsu
 loadrt scale names=x-scale,y-scale,z-scale
 addf x-scale servo-thread
 addf y-scale servo-thread
