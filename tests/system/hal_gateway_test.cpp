@@ -50,7 +50,8 @@ class HalGateway : public testing::Test {
     std::vector<gateway::Vector> commands;
     std::optional<unsigned long> before;
     for (const HalSample& sample : machine_->record()) {
-      EXPECT_TRUE(!before || sample.tick == *before + 1) << "the sampler lost samples, the record is void";
+      EXPECT_TRUE(!before || sample.tick == *before + 1)
+          << "from tick " << before.value_or(0) << " to " << sample.tick << ": samples are lost, the record is void";
       before = sample.tick;
       commands.emplace_back(sample.command_mm[0], sample.command_mm[1], sample.command_mm[2]);
     }

@@ -21,14 +21,13 @@ const fs::path kModules = "/usr/lib/linuxcnc/modules";
 const std::string kUser = "20001";  // any that nobody has
 
 // The sampler takes the commands in millionths, for it is printed with six decimals. It keeps a minute: what prints it
-// may wait for a busy disk.
+// may wait for a busy disk. It begins when all is connected: the thread runs already.
 constexpr double kUnit = 1e-6;
 constexpr const char* kRecord = R"(loadrt sampler depth=60000 cfg=fffsu
 loadrt scale names=x-scale,y-scale,z-scale
 addf x-scale servo-thread
 addf y-scale servo-thread
 addf z-scale servo-thread
-addf sampler.0 servo-thread
 setp x-scale.gain 1e6
 setp y-scale.gain 1e6
 setp z-scale.gain 1e6
@@ -40,6 +39,7 @@ net y-sample y-scale.out => sampler.0.pin.1
 net z-sample z-scale.out => sampler.0.pin.2
 net state kcs-player.state => sampler.0.pin.3
 net ticks kcs-player.ticks => sampler.0.pin.4
+addf sampler.0 servo-thread
 )";
 
 std::string make_folder() {
