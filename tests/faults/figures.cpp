@@ -10,6 +10,7 @@ namespace {
 using Places = std::vector<Place>;
 
 constexpr std::size_t kBatch = 20;        // setpoints, as the gateway has them by default
+constexpr std::size_t kUnseen = 3;        // setpoints of a tail that may still look like the plan
 constexpr double kLongestReaction = 1.0;  // s: what comes later has other reasons
 
 bool at_planned_pace(const Places& places, std::size_t i) {
@@ -38,6 +39,17 @@ std::optional<std::size_t> planned_tail(const Place& place, const motion::AxisLi
   return batch ? std::optional(batch->tail.size()) : std::nullopt;
 }
 
+// When the motion should rest at the latest that left the planned pace at places[last], as the index of a place. The
+// first setpoints of a tail may not differ from the plan yet; and tails that begin a tick apart may be very different.
+std::optional<std::size_t> planned_rest(const Places& places, std::size_t last, const motion::AxisLimits& limits,
+                                        double period) {
+  std::optional<std::size_t> rest;
+  for (std::size_t i = last - kUnseen; i <= last; ++i) {
+    if (const auto tail = planned_tail(places[i], limits, period)) rest = std::max(rest.value_or(0), i + *tail);
+  }
+  return rest;
+}
+
 }  // namespace
 
 Figures measure(const Commands& commands, const Verdict& verdict, const std::vector<double>& instants,
@@ -57,10 +69,9 @@ Figures measure(const Commands& commands, const Verdict& verdict, const std::vec
     if (!places[i - 1].moves || places[i].moves) continue;
     ++figures.stops;
     if (last_planned > 0 && !at_end(places[i])) {
-      const std::size_t took = i - 1 - last_planned;
-      figures.stop_times.push_back(static_cast<double>(took) * period);
-      if (const auto tail = planned_tail(places[last_planned], limits, period)) {
-        const double beyond = (static_cast<double>(took) - static_cast<double>(*tail)) * period;
+      figures.stop_times.push_back(static_cast<double>(i - 1 - last_planned) * period);
+      if (const auto rest = planned_rest(places, last_planned, limits, period)) {
+        const double beyond = (static_cast<double>(i - 1) - static_cast<double>(*rest)) * period;
         figures.longest_beyond_tail = std::max(figures.longest_beyond_tail, beyond);
       }
     }
