@@ -43,9 +43,9 @@ std::string refusal_of_g(int tenths) {
       return "cycles of turning are not supported. Let the CAM program write out the moves of the cycle.";
     case code(74):
     case code(84):
-      return "the spindle must turn back at the bottom of a tapped hole, which a plan of motion cannot make it do. "
-             "With "
-             "a floating tap holder write the moves: G1 down, M4 (M3 for a left-hand thread), G1 up.";
+      return "in a tapped hole the feed must follow the spindle, also while it is held or slowed down, which kcs "
+             "cannot "
+             "make it do. With a floating tap holder write the moves: G1 down, M4 (M3 for a left-hand thread), G1 up.";
     case code(87):
       return "back boring, with a spindle that stops in a certain direction, is not supported. Let the CAM program "
              "write out the moves of the cycle.";

@@ -110,7 +110,9 @@ void Cycles::drill(const Heights& heights, int axis, const TakeStep& take) const
   }
   if (dwells(cycle_)) take({.kind = Kind::kDwell, .to = {}, .duration = *dwell_});
   if (cycle_ == code(85)) take(along(axis, heights.retract, Kind::kFeed));
+  if (cycle_ == code(86)) take({.kind = Kind::kStopSpindle, .to = {}});
   take(along(axis, heights.clear, cycle_ == code(89) ? Kind::kFeed : Kind::kRapid));
+  if (cycle_ == code(86)) take({.kind = Kind::kRestartSpindle, .to = {}});
 }
 
 // G83 leaves the hole after each peck, to clear it of chips; G73 only breaks them.

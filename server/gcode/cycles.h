@@ -13,7 +13,7 @@ namespace kcs::gcode {
 
 // One step of a cycle.
 struct CycleStep {
-  enum class Kind { kRapid, kFeed, kDwell };
+  enum class Kind { kRapid, kFeed, kDwell, kStopSpindle, kRestartSpindle };
   Kind kind = Kind::kRapid;
   Stated to;            // in the program's coordinates, mm; what is not stated stays as it is
   double duration = 0;  // of a dwell, s

@@ -29,7 +29,7 @@ void Interpreter::execute(const Words& words) {
   note_words_without_effect(words, codes, modes_, notices_);
   offsets_.choose(words, codes, modes_.unit);
   if (codes.has(Group::kToolChange)) change_tool(codes);
-  switches_.execute(words, codes, builder_);
+  switches_.execute(words, codes, modes_.unit, builder_);
   if (codes.has(Group::kMotion) && modes_.motion != Motion::kCycle) cycles_.end();
   switch (codes[Group::kThisBlock]) {
     case code(4):
@@ -134,9 +134,16 @@ void Interpreter::drill(const Words& words, const Codes& codes) {
   Manner manner = manner_of(words);
   manner.tolerance = 0;
   cycles_.execute(words, modes_, program_position(), [&](const CycleStep& step) {
-    if (step.kind == CycleStep::Kind::kDwell) {
-      if (step.duration > 0) builder_.dwell(step.duration, words.start());
-      return;
+    switch (step.kind) {
+      case CycleStep::Kind::kDwell:
+        if (step.duration > 0) builder_.dwell(step.duration, words.start());
+        return;
+      case CycleStep::Kind::kStopSpindle:
+        return switches_.stop_spindle(words.start(), builder_);
+      case CycleStep::Kind::kRestartSpindle:
+        return switches_.restart_spindle(words.start(), builder_);
+      default:
+        break;
     }
     const Vector end = checked(offsets_.coordinates().moved(builder_.position(), step.to, false), words);
     manner.feed = step.kind == CycleStep::Kind::kRapid ? rapid() : feed;

@@ -9,14 +9,11 @@ namespace {
 
 void note_codes(const Words& words, const Codes& codes, Notices& notices) {
   const std::uint32_t line = words.start().line;
-  if (codes.has(Group::kSpindleMode)) {
-    notices.add({'S'}, line, [] { return "Spindle modes (G96, G97) have no effect: S is the speed in 1/min."; });
-  }
   if (words.has('T') || codes.has(Group::kToolChange)) {
     notices.add({'T'}, line,
                 [] { return "Tools (T, M6) are not told apart: at M6 the tool rests, and nothing is changed."; });
   }
-  if (words.has('D')) {
+  if (words.has('D') && codes[Group::kSpindleMode] != code(96)) {
     notices.add({'D'}, line, [] { return "Tool radii (D) have no effect: kcs does not know the tools."; });
   }
   if (codes.has(Group::kOverrides)) {

@@ -16,10 +16,13 @@ enum class MarkerKind : std::uint8_t {
   kCoolantOff,               // M9
   kDwellBegins,
   kDwellEnds,
+  kSpindleSpeedLimit,    // D of G96
+  kSpindleSurfaceSpeed,  // G96, S
 };
 
 struct Marker {
-  float speed = 0;  // of the spindle where it turns, 1/min, ≥ 0; finer than any spindle keeps it, and half the memory
+  // Of the spindle, ≥ 0: 1/min, a surface speed m/min. Finer than any spindle keeps it, and half the memory.
+  float speed = 0;
   MarkerKind kind = MarkerKind::kNone;
 
   bool operator==(const Marker&) const = default;

@@ -23,6 +23,11 @@ class SwitchedAgain {
       case MarkerKind::kDwellBegins:
       case MarkerKind::kDwellEnds:
         return has({MarkerKind::kDwellBegins, MarkerKind::kDwellEnds}, kind);
+      case MarkerKind::kSpindleSpeedLimit:
+        return has({kind}, kind);
+      case MarkerKind::kSpindleSurfaceSpeed:
+        return has({kind, MarkerKind::kSpindleClockwise, MarkerKind::kSpindleCounterclockwise, MarkerKind::kSpindleOff},
+                   kind);
       default:
         return has({MarkerKind::kSpindleClockwise, MarkerKind::kSpindleCounterclockwise, MarkerKind::kSpindleOff},
                    kind);

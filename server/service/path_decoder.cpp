@@ -23,6 +23,17 @@ std::string place(const char* field, std::uint64_t point) {
 // The number of one point, where a single number may stand for all of them.
 double shared_or_own(const Numbers& numbers, int point) { return numbers[numbers.size() == 1 ? 0 : point]; }
 
+bool can_be_switched(v1::MarkerKind kind) {
+  switch (kind) {
+    case v1::MARKER_KIND_UNSPECIFIED:
+    case v1::MARKER_KIND_DWELL_BEGINS:
+    case v1::MARKER_KIND_DWELL_ENDS:
+      return false;
+    default:
+      return v1::MarkerKind_IsValid(kind);
+  }
+}
+
 }  // namespace
 
 const std::vector<planning::Segment>& PathDecoder::decode(const v1::PathChunk& chunk) {
@@ -143,14 +154,15 @@ void PathDecoder::decode_markers(const v1::PathChunk& chunk, int points, Violati
                                                    entry.point(), points));
       continue;
     }
-    const int kind = entry.marker().kind();
-    if (kind < v1::MARKER_KIND_SPINDLE_CLOCKWISE || kind > v1::MARKER_KIND_COOLANT_OFF) {
+    const v1::MarkerKind kind = entry.marker().kind();
+    if (!can_be_switched(kind)) {
       violations.add(field + ".marker.kind", fmt::format("{} is nothing to switch: give a command for spindle or "
                                                          "coolant; dwells are stops",
-                                                         kind));
+                                                         static_cast<int>(kind)));
       continue;
     }
-    if (!violations.check_range(field + ".marker.value", entry.marker().value(), 0, range::kMaxSpindleSpeed, "1/min")) {
+    if (!violations.check_range(field + ".marker.value", entry.marker().value(), 0, range::kMaxSpindleSpeed,
+                                kind == v1::MARKER_KIND_SPINDLE_SURFACE_SPEED ? "m/min" : "1/min")) {
       continue;
     }
     planning::Segment& segment = points_ + entry.point() == 0 ? stay_at_start() : segment_to(entry.point(), points);

@@ -30,9 +30,11 @@
 //   kcs-player.reason          out s32    enum kcs_player_reason: why it stopped or does not begin
 //   kcs-player.running, .held, .moving    out bit  state 2; 4; 2 or 3
 //   kcs-player.bad-limits      out bit    a parameter above is missing or not above 0: nothing will be played
-//   kcs-player.spindle-on      out bit    as the program's markers have it, like the next four; off while the drives
+//   kcs-player.spindle-on      out bit    as the program's markers have it, like the next six; off while the drives
 //   kcs-player.spindle-forward out bit    are off and in a fault
 //   kcs-player.spindle-speed   out float  1/min
+//   kcs-player.surface-speed   out float  m/min; above 0 the spindle's speed is to follow from it and the tool's radius
+//   kcs-player.speed-limit     out float  1/min; what it follows to at most, 0: no limit
 //   kcs-player.mist            out bit
 //   kcs-player.flood           out bit
 //   kcs-player.ticks, .starvations, .refused  out u32  counted since it was loaded
@@ -58,7 +60,16 @@ static int axes = 3;
 RTAPI_MP_INT(axes, "2 or 3");
 
 // MarkerKind in proto/kcs/v1/planning.proto.
-enum { SPINDLE_CLOCKWISE = 1, SPINDLE_COUNTERCLOCKWISE, SPINDLE_OFF, MIST_ON, FLOOD_ON, COOLANT_OFF };
+enum {
+  SPINDLE_CLOCKWISE = 1,
+  SPINDLE_COUNTERCLOCKWISE,
+  SPINDLE_OFF,
+  MIST_ON,
+  FLOOD_ON,
+  COOLANT_OFF,
+  SPINDLE_SPEED_LIMIT = 9,
+  SPINDLE_SURFACE_SPEED
+};
 
 struct axis_pins {
   hal_float_t *command, *feedback;
@@ -71,7 +82,7 @@ struct pins {
   hal_bit_t *enable, *hold, *drive_fault;
   hal_bit_t *drives_on, *quick_stop, *running, *held, *moving, *bad_limits;
   hal_bit_t *spindle_on, *spindle_forward, *mist, *flood;
-  hal_float_t *spindle_speed;
+  hal_float_t *spindle_speed, *surface_speed, *speed_limit;
   hal_s32_t *state, *reason;
   hal_u32_t *ticks, *starvations, *refused;
 };
@@ -99,6 +110,7 @@ static void switch_spindle(bool on, bool forward, double speed) {
   *pins->spindle_on = on;
   *pins->spindle_forward = on && forward;
   *pins->spindle_speed = on ? speed : 0;
+  *pins->surface_speed = 0;
 }
 
 static void heed(const struct kcs_player_marker *marker) {
@@ -121,6 +133,12 @@ static void heed(const struct kcs_player_marker *marker) {
     case COOLANT_OFF:
       *pins->mist = *pins->flood = false;
       break;
+    case SPINDLE_SPEED_LIMIT:
+      *pins->speed_limit = marker->value;
+      break;
+    case SPINDLE_SURFACE_SPEED:
+      *pins->surface_speed = marker->value;
+      break;
     default:  // dwells: the setpoints stand still by themselves
       break;
   }
@@ -142,6 +160,7 @@ static void tell(const struct kcs_player_output *output) {
   for (uint32_t i = 0; i < output->marker_count; ++i) heed(&output->markers[i]);
   if (report->state == KCS_PLAYER_OFF || report->state == KCS_PLAYER_FAULT) {
     switch_spindle(false, false, 0);
+    *pins->speed_limit = 0;
     *pins->mist = *pins->flood = false;
   }
 }
@@ -185,6 +204,8 @@ static int add_pins(void) {
   fault |= hal_pin_bit_newf(HAL_OUT, &pins->spindle_on, component, "kcs-player.spindle-on");
   fault |= hal_pin_bit_newf(HAL_OUT, &pins->spindle_forward, component, "kcs-player.spindle-forward");
   fault |= hal_pin_float_newf(HAL_OUT, &pins->spindle_speed, component, "kcs-player.spindle-speed");
+  fault |= hal_pin_float_newf(HAL_OUT, &pins->surface_speed, component, "kcs-player.surface-speed");
+  fault |= hal_pin_float_newf(HAL_OUT, &pins->speed_limit, component, "kcs-player.speed-limit");
   fault |= hal_pin_bit_newf(HAL_OUT, &pins->mist, component, "kcs-player.mist");
   fault |= hal_pin_bit_newf(HAL_OUT, &pins->flood, component, "kcs-player.flood");
   fault |= hal_pin_s32_newf(HAL_OUT, &pins->state, component, "kcs-player.state");

@@ -45,10 +45,9 @@ TEST(Codes, WithoutEffectAreNoted) {
   const struct {
     const char* word;
     const char* note;
-  } cases[] = {{"G43 H1", "Tool lengths"}, {"G43", "Tool lengths"},   {"H3", "H words"},        {"D08", "Tool radii"},
-               {"G54", "Work offsets"},    {"G59.3", "Work offsets"}, {"G97", "Spindle modes"}, {"T1 M6", "Tools"},
-               {"M49", "M48 and M49"},     {"M106 S255", "M106"},     {"E5", "E words"},        {"Q1", "Q words"},
-               {"L1", "L words"}};
+  } cases[] = {{"G43 H1", "Tool lengths"}, {"G43", "Tool lengths"},   {"H3", "H words"},  {"D08", "Tool radii"},
+               {"G54", "Work offsets"},    {"G59.3", "Work offsets"}, {"T1 M6", "Tools"}, {"M49", "M48 and M49"},
+               {"M106 S255", "M106"},      {"E5", "E words"},         {"Q1", "Q words"},  {"L1", "L words"}};
   for (const auto& [word, note] : cases) {
     const Program program = read_program("G0 X1\nX2 Y0\n" + std::string(word));
     ASSERT_EQ(program.notices.size(), 1U) << word;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <utility>
 #include <vector>
 
 #include "tests/unit/gcode/program.h"
@@ -64,6 +65,44 @@ TEST(Spindle, ChangesItsSpeedOnTheWay) {
 TEST(Spindle, TakesNoSpeedThatMayBelongToAnUnknownWord) {
   EXPECT_EQ(switched_by(read_program("G0 X1\nM3 S500\nT1 M106 S255\nX2")),
             (List{{1, MarkerKind::kSpindleClockwise, 500}}));
+}
+
+TEST(Spindle, TurnsForASurfaceSpeedUntilG97) {
+  const Program program = read_program("M3 S500\nG0 X1\nG96 D2500 S180\nX2 S200\nM4 X3\nG97 S600\nX4 M5\nX5");
+  EXPECT_EQ(switched_by(program), (List{{0, MarkerKind::kSpindleClockwise, 500},
+                                        {1, MarkerKind::kSpindleSpeedLimit, 2500},
+                                        {1, MarkerKind::kSpindleSurfaceSpeed, 180},
+                                        {1, MarkerKind::kSpindleSurfaceSpeed, 200},
+                                        {2, MarkerKind::kSpindleCounterclockwise, 500},
+                                        {2, MarkerKind::kSpindleSurfaceSpeed, 200},
+                                        {3, MarkerKind::kSpindleCounterclockwise, 600},
+                                        {3, MarkerKind::kSpindleOff}}));
+  EXPECT_EQ(rests_of(program), (std::vector<double>{2, 3})) << "where it turns the other way, and stops";
+  EXPECT_TRUE(program.notices.empty());
+}
+
+TEST(Spindle, TakesASurfaceSpeedBeforeItTurnsInFeetWhereTheProgramIsInInches) {
+  EXPECT_EQ(switched_by(read_program("G20 G96 S1000\nG0 X1\nM3")),
+            (List{{0, MarkerKind::kSpindleSpeedLimit, 0},
+                  {25.4, MarkerKind::kSpindleClockwise, 0},
+                  {25.4, MarkerKind::kSpindleSurfaceSpeed, 304.8F}}));
+}
+
+TEST(Spindle, RefusesASurfaceSpeedThatIsMissing) {
+  EXPECT_NE(refusal_of("M3 S100\nG96 D100").find("line 2, column 1: G96 needs S"), std::string::npos);
+  EXPECT_NE(refusal_of("G96 S100\nG0 X1 G97").find("line 2, column 7: G97 after G96 without S"), std::string::npos);
+  EXPECT_EQ(refusal_of("G97"), "");
+}
+
+TEST(Spindle, StopsAtTheBottomOfG86AndTurnsAgainAboveIt) {
+  const Program program = read_program("M3 S500\nG0 Z5\nF100 G98 G86 X1 Z-1 R1 P0.5\nG80");
+  std::vector<std::pair<double, MarkerKind>> at;
+  for (const planning::Segment& segment : program.segments()) {
+    if (segment.marker.kind != MarkerKind::kNone) at.emplace_back(segment.end.z(), segment.marker.kind);
+  }
+  EXPECT_EQ(
+      at, (std::vector<std::pair<double, MarkerKind>>{
+              {0, MarkerKind::kSpindleClockwise}, {-1, MarkerKind::kSpindleOff}, {5, MarkerKind::kSpindleClockwise}}));
 }
 
 TEST(Spindle, RefusesASpeedOutOfRange) {
