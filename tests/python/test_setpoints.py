@@ -1,5 +1,7 @@
 """Setpoints as arrays."""
 
+import pathlib
+
 import numpy as np
 import pytest
 
@@ -47,6 +49,18 @@ def test_points_have_the_lines_that_were_given(client: kcs.Client, table: kcs.Ma
     line = plan.setpoints(0.001, ["line"]).line
     assert line[0] == 30 and line[-1] == 20 and set(line) == {20, 30}
     assert not circle.setpoints(0.001, ["line"]).line.any()
+
+
+def test_they_go_into_hdf5_and_come_back(circle: kcs.Plan, tmp_path: pathlib.Path) -> None:
+    h5py = pytest.importorskip("h5py", reason="python3-h5py is not installed")
+    setpoints = circle.setpoints(0.001, ["velocity", "segment"])
+    names = ("time_s", "position_mm", "velocity_mm_s", "segment")
+    with h5py.File(tmp_path / "circle.h5", "w") as file:
+        for name in names:
+            file[name] = getattr(setpoints, name)
+    with h5py.File(tmp_path / "circle.h5") as file:
+        for name in names:
+            assert np.array_equal(file[name], getattr(setpoints, name)), name
 
 
 def test_batches_are_the_same_in_pieces(circle: kcs.Plan) -> None:
