@@ -8,7 +8,7 @@
 #include <string>
 
 #include "server/planning/invalid_input.h"
-#include "server/planning/planner.h"
+#include "server/planning/plan_path.h"
 #include "server/runs/machine.h"
 #include "server/service/machine_messages.h"
 
