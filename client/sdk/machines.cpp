@@ -7,6 +7,7 @@
 
 #include "client/sdk/call_context.h"
 #include "client/sdk/channel.h"
+#include "client/sdk/machine_key.h"
 #include "client/sdk/machine_messages.h"
 #include "client/sdk/server_link.h"
 #include "kcs/v1/machine.grpc.pb.h"
@@ -32,6 +33,11 @@ class Machines::Link {
     server_.await_server({});
     grpc::ClientContext context;
     server_.set_deadline(context);
+    if constexpr (requires { request.machine(); }) {
+      say_machine(context, request.machine());
+    } else if constexpr (requires { request.name(); }) {
+      say_machine(context, request.name());
+    }
     Response response;
     server_.check((*stub_.*method)(&context, request, &response));
     return response;
@@ -41,6 +47,7 @@ class Machines::Link {
             const std::stop_token& stop) {
     server_.await_server(stop);
     CallContext context(stop);
+    say_machine(context, request.name());
     const auto reader = stub_->WatchRun(&context, request);
     Run run;
     try {

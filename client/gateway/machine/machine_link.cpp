@@ -11,6 +11,7 @@
 
 #include "client/sdk/call_context.h"
 #include "client/sdk/channel.h"
+#include "client/sdk/machine_key.h"
 
 namespace kcs::gateway {
 namespace {
@@ -117,6 +118,7 @@ MachineLink::Attempt MachineLink::attach(const std::stop_token& stop) {
     return {.status = {grpc::StatusCode::UNAVAILABLE, "there is no connection"}, .attached = false};
   }
   client::CallContext context(stop);
+  client::say_machine(context, hello_.machine());
   const std::unique_ptr<Stream> stream = stub_->AttachMachine(&context);
   Reporter reporter(*stream, feeder_, hello_);
   const auto begin = Clock::now();
