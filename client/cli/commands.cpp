@@ -10,6 +10,7 @@
 
 #include "client/cli/corners_table.h"
 #include "client/cli/gnuplot.h"
+#include "client/cli/health.h"
 #include "client/cli/json.h"
 #include "client/cli/live.h"
 #include "client/cli/machine_commands.h"
@@ -140,6 +141,8 @@ void run_command(const Options& options) {
       return operate_run(options);
     case Command::kWatch:
       return watch_run(options);
+    case Command::kHealth:
+      return check_health(options.http);
   }
 }
 

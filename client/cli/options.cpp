@@ -96,6 +96,15 @@ void add_commands(CLI::App& app, Options& options) {
   plot->add_option("--to", options.to_s, "last moment to draw (default: the end)")->option_text("S");
 }
 
+void add_health_command(CLI::App& app, Options& options) {
+  CLI::App* health = app.add_subcommand("health", "say whether a kcsd takes requests");
+  health->footer(client::kExitCodeHelp + std::string("."));
+  health->callback([&options] { options.command = Command::kHealth; });
+  health
+      ->add_option("--http", options.http, "where it speaks HTTP: its observe.http_listen\n(default: 127.0.0.1:50552)")
+      ->option_text("HOST:PORT");
+}
+
 }  // namespace
 
 std::optional<client::Message> parse_command_line(int argc, const char* const* argv, Options& options) {
@@ -106,6 +115,7 @@ std::optional<client::Message> parse_command_line(int argc, const char* const* a
   app.get_formatter()->column_width(26);
   add_commands(app, options);
   add_machine_commands(app, options);
+  add_health_command(app, options);
   return client::parse(app, argc, argv);
 }
 

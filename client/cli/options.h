@@ -26,7 +26,8 @@ enum class Command {
   kResume,
   kAbort,
   kOverride,
-  kWatch
+  kWatch,
+  kHealth
 };
 
 // Of the commands that are about machines and their runs. Machines may be named without their "machines/".
@@ -56,6 +57,8 @@ struct Options {
   std::optional<SetpointFormat> format;   // stream, live; none: by the end of the output's name
   double from_s = 0;                      // plot: the window of time
   std::optional<double> to_s;             // plot; none: the end
+
+  std::string http = "127.0.0.1:50552";  // health: where the server speaks HTTP
 };
 
 // The format of the setpoints that are written.

@@ -28,11 +28,13 @@ kcs_public_headers(planning server/planning corner.h corner_list.h invalid_input
                    range.h stopped.h toolpath.h)
 kcs_public_headers(gcode server/gcode notices.h options.h read_program.h)
 add_custom_target(kcs_public_headers ALL DEPENDS ${public_headers})
-install(DIRECTORY ${public_includes}/kcs DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${public_includes}/kcs DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
-install(TARGETS kcsd kcsctl kcs-gateway)
-install(DIRECTORY proto/kcs/v1 DESTINATION ${CMAKE_INSTALL_DATADIR}/kcs/proto/kcs FILES_MATCHING PATTERN "*.proto")
-install(DIRECTORY proto/google DESTINATION ${CMAKE_INSTALL_DATADIR}/kcs/proto FILES_MATCHING PATTERN "*.proto")
+install(TARGETS kcsd kcsctl kcs-gateway COMPONENT programs)
+install(DIRECTORY proto/kcs/v1 DESTINATION ${CMAKE_INSTALL_DATADIR}/kcs/proto/kcs COMPONENT development
+        FILES_MATCHING PATTERN "*.proto")
+install(DIRECTORY proto/google DESTINATION ${CMAKE_INSTALL_DATADIR}/kcs/proto COMPONENT development
+        FILES_MATCHING PATTERN "*.proto")
 
 foreach(library client proto planning gcode motion)
   set_target_properties(kcs_${library} PROPERTIES EXPORT_NAME ${library})  # users link kcs::client
@@ -44,11 +46,14 @@ file(RELATIVE_PATH prefix_of_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 foreach(component client planning)
   set(libraries_client kcs_client kcs_proto)
   set(libraries_planning kcs_planning kcs_motion kcs_gcode)
-  install(TARGETS ${libraries_${component}} EXPORT kcs-${component} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(EXPORT kcs-${component} NAMESPACE kcs:: DESTINATION ${package})
+  install(TARGETS ${libraries_${component}} EXPORT kcs-${component} COMPONENT development
+          INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT kcs-${component} NAMESPACE kcs:: DESTINATION ${package} COMPONENT development)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/kcs-${component}.pc.in kcs-${component}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/kcs-${component}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  install(FILES ${PROJECT_BINARY_DIR}/kcs-${component}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+          COMPONENT development)
 endforeach()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/kcsConfig.cmake kcsConfig.cmake COPYONLY)
 write_basic_package_version_file(kcsConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/kcsConfig.cmake ${PROJECT_BINARY_DIR}/kcsConfigVersion.cmake DESTINATION ${package})
+install(FILES ${PROJECT_BINARY_DIR}/kcsConfig.cmake ${PROJECT_BINARY_DIR}/kcsConfigVersion.cmake DESTINATION ${package}
+        COMPONENT development)

@@ -1,4 +1,4 @@
-# find_package(kcs COMPONENTS client planning): see cmake/install.cmake. Without components: all of them.
+# find_package(kcs COMPONENTS client planning): see install.cmake. Without components: all of them.
 include(CMakeFindDependencyMacro)
 if(NOT kcs_FIND_COMPONENTS)
   set(kcs_FIND_COMPONENTS client planning)
