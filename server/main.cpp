@@ -1,4 +1,5 @@
 // kcsd, the planning server: flags, wiring, signals.
+#include <fmt/core.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 
@@ -18,6 +19,7 @@
 #include "server/service/logging.h"
 #include "server/service/server.h"
 #include "server/systemd/service_manager.h"
+#include "server/version/version.h"
 
 namespace {
 
@@ -96,7 +98,7 @@ std::map<std::string, kcs::v1::Machine> shipped_machines() {
 [[noreturn]] void serve(const Config& config) {
   const sigset_t signals = block_stop_signals();
   kcs::service::Server server(config.server);
-  spdlog::info("kcsd {} listens on {}", KCS_VERSION, server.address());
+  spdlog::info("kcsd {} listens on {}", kcs::version_and_build(), server.address());
   std::printf("kcsd listens on %s\n", server.address().c_str());
   std::fflush(stdout);
   if (!server.http_address().empty()) spdlog::info("shows its figures on http://{}/metrics", server.http_address());
@@ -116,7 +118,7 @@ std::map<std::string, kcs::v1::Machine> shipped_machines() {
 int main(int argc, char** argv) {
   CLI::App app("kcsd plans how a machine tool moves, and serves it over gRPC.");
   Flags flags;
-  app.set_version_flag("--version", "kcsd " KCS_VERSION);
+  app.set_version_flag("--version", fmt::format("kcsd {}", kcs::version_and_build()));
   app.add_option("--config", flags.config_file, "Configuration file (TOML)");
   app.add_option("--listen", flags.listen, "HOST:PORT (port 0: any free one), unix:PATH or systemd [127.0.0.1:50551]");
   app.add_option("--threads", flags.threads, "Threads that plan; 0: one for each processor [0]")

@@ -1,11 +1,14 @@
 #include "client/cli/options.h"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <map>
 
 #include "client/cli/machine_options.h"
 #include "client/common/connection_options.h"
 #include "client/common/exit_code.h"
+#include "server/version/version.h"
 
 namespace kcs::cli {
 namespace {
@@ -111,6 +114,7 @@ std::optional<client::Message> parse_command_line(int argc, const char* const* a
   CLI::App app("Plans G-code programs with kcs (cycle time, corners, setpoints, pictures),\nand runs them on machines.",
                "kcsctl");
   app.require_subcommand(1);
+  app.set_version_flag("--version", fmt::format("kcsctl {}", version_and_build()));
   app.footer(std::string("kcsctl COMMAND --help says more about a command.\n") + client::kExitCodeHelp + ".");
   app.get_formatter()->column_width(26);
   add_commands(app, options);

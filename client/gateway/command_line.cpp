@@ -8,6 +8,7 @@
 #include "client/common/connection_options.h"
 #include "client/common/exit_code.h"
 #include "client/common/planning_options.h"
+#include "server/version/version.h"
 
 namespace kcs::gateway {
 namespace {
@@ -75,6 +76,7 @@ CLI::App* add_attach(CLI::App& app, CommandLine& options) {
 std::optional<client::Message> parse_command_line(int argc, const char* const* argv, CommandLine& options) {
   CLI::App app("Plays a plan at the drives' period into simulated drives, and says how well they\nfollowed.",
                "kcs-gateway");
+  app.set_version_flag("--version", fmt::format("kcs-gateway {}", version_and_build()));
   app.footer(std::string(client::kExitCodeHelp) + kStarvedHelp);
   app.get_formatter()->column_width(26);
   add_source(app, options);

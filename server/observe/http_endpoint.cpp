@@ -13,6 +13,7 @@
 #include "server/net/address.h"
 #include "server/observe/exposition.h"
 #include "server/observe/http_connection.h"
+#include "server/version/version.h"
 
 namespace kcs::observe {
 namespace {
@@ -96,8 +97,9 @@ HttpEndpoint::HttpEndpoint(const std::string& listen, const Registry& registry, 
   server.Get("/metrics", [&registry](const httplib::Request&, httplib::Response& response) {
     response.set_content(registry.exposition(), kExpositionContentType);
   });
-  server.Get("/healthz",
-             [](const httplib::Request&, httplib::Response& response) { response.set_content("alive\n", kPlainText); });
+  server.Get("/healthz", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content(fmt::format("alive\nversion {}\nbuild {}\n", version(), build()), kPlainText);
+  });
   server.Get("/readyz", [&readiness](const httplib::Request&, httplib::Response& response) {
     const std::string obstacle = readiness.obstacle();
     response.status = obstacle.empty() ? 200 : 503;

@@ -1,8 +1,10 @@
 #include "server/observe/server_metrics.h"
 
+#include "server/version/version.h"
+
 namespace kcs::observe {
 
-ServerMetrics::ServerMetrics(Registry& registry, const std::string& version)
+ServerMetrics::ServerMetrics(Registry& registry)
     : planning_duration(registry.histogram(
           {"kcs_planning_duration_seconds", "Time that making a plan took, from its turn to its verification."})),
       segments_planned(registry.counter(
@@ -17,8 +19,8 @@ ServerMetrics::ServerMetrics(Registry& registry, const std::string& version)
                                     {"reason"}})),
       store_duration(registry.histograms(
           {"kcs_store_duration_seconds", "Time that the store took, failures included.", {"operation"}})) {
-  registry.gauges({"kcs_build_info", "Always 1; the version of the server is its label.", {"version"}})
-      .with({version})
+  registry.gauges({"kcs_build_info", "Always 1; its labels say which server this is.", {"version", "build"}})
+      .with({std::string(version()), std::string(build())})
       .add(1);
 }
 

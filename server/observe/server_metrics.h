@@ -9,7 +9,7 @@ namespace kcs::observe {
 // registry by whoever knows it. All are safe for use by many threads at once, and live as long as the registry.
 struct ServerMetrics {
   // Adds them to `registry`, with kcs_build_info for this version.
-  ServerMetrics(Registry& registry, const std::string& version);
+  explicit ServerMetrics(Registry& registry);
 
   // Planning.
   Histogram& planning_duration;

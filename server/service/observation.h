@@ -12,7 +12,7 @@ namespace kcs::service {
 struct Observation {
   observe::Log log;
   observe::Registry registry = {};
-  observe::ServerMetrics metrics{registry, KCS_VERSION};
+  observe::ServerMetrics metrics{registry};
   observe::Readiness readiness = {};
 };
 

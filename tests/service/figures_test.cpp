@@ -1,4 +1,5 @@
 // What a server says of itself over HTTP moves with what it does.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
 
@@ -7,6 +8,7 @@
 #include <thread>
 
 #include "server/net/address.h"
+#include "server/version/version.h"
 #include "tests/observe/exposition_reader.h"
 #include "tests/service/kept_plans.h"
 #include "tests/service/live_client.h"
@@ -114,7 +116,7 @@ TEST_F(Figures, AreThoseOfThisServerAlone) {
   TestServer other{{.observe = {.http_listen = "127.0.0.1:0"}}};
   other.create({request(options()), request(right_angle())});
   EXPECT_EQ(figure("kcs_planning_duration_seconds_count"), 0);
-  EXPECT_EQ(figure("kcs_build_info{version=\"" KCS_VERSION "\"}"), 1);
+  EXPECT_EQ(figure(fmt::format("kcs_build_info{{version=\"{}\",build=\"{}\"}}", version(), build())), 1);
   EXPECT_EQ(figure("kcs_planning_queue_depth"), 0);
   EXPECT_EQ(figure("kcs_plans_running"), 0);
 }

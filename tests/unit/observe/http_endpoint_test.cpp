@@ -1,6 +1,7 @@
 #include "server/observe/http_endpoint.h"
 
 #include <arpa/inet.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
 #include <netinet/in.h>
@@ -8,6 +9,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include "server/net/address.h"
+#include "server/version/version.h"
 
 namespace kcs::observe {
 namespace {
@@ -88,7 +91,18 @@ TEST_F(HttpEndpointTest, GivesTheFiguresAsPrometheusReadsThem) {
   EXPECT_EQ(answer->body, registry_.exposition());
 }
 
-TEST_F(HttpEndpointTest, TellsThatTheProcessLives) { expect_alive(); }
+TEST_F(HttpEndpointTest, TellsThatTheProcessLivesAndWhichOneItIs) {
+  const auto answer = get("/healthz");
+  ASSERT_TRUE(answer) << to_string(answer.error());
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_EQ(answer->body, fmt::format("alive\nversion {}\nbuild {}\n", version(), build()));
+}
+
+TEST(Version, IsOfThisReleaseAndOfSomethingThatCanBeFoundAgain) {
+  EXPECT_EQ(std::count(version().begin(), version().end(), '.'), 2);
+  EXPECT_FALSE(build().empty());
+  EXPECT_EQ(version_and_build(), fmt::format("{} (build {})", version(), build()));
+}
 
 TEST_F(HttpEndpointTest, TellsWhetherTheServerIsReadyAndWhyNot) {
   readiness_.set_not_ready("the store is away");

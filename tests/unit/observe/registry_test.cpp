@@ -120,7 +120,7 @@ TEST(Registry, CountsWhatManyThreadsDoWhileItIsRead) {
   constexpr int kThreads = 4;
   constexpr int kRounds = 2000;
   Registry registry;
-  ServerMetrics metrics(registry, "1");
+  ServerMetrics metrics(registry);
   std::vector<std::thread> threads;
   for (int i = 0; i < kThreads; ++i) {
     threads.emplace_back([&] {
