@@ -17,6 +17,23 @@ namespace {
 
 bool is_unix(const std::string& address) { return address.starts_with("unix:"); }
 
+// What is safe is tried again, by gRPC itself, unless an answer has begun: asked twice, each of these answers as if it
+// had been asked once. A plan's name is made from its request, so that this holds for CreatePlan, too.
+constexpr const char* kServiceConfig = R"({"methodConfig": [{
+  "name": [{"service": "kcs.v1.PlanningService", "method": "CreatePlan"},
+           {"service": "kcs.v1.PlanningService", "method": "GetPlan"},
+           {"service": "kcs.v1.PlanningService", "method": "ListPlans"},
+           {"service": "kcs.v1.PlanningService", "method": "WatchPlan"},
+           {"service": "kcs.v1.PlanningService", "method": "StreamSetpoints"},
+           {"service": "kcs.v1.PlanningService", "method": "DescribeCorners"},
+           {"service": "kcs.v1.MachineService", "method": "ListMachines"},
+           {"service": "kcs.v1.MachineService", "method": "GetRun"},
+           {"service": "kcs.v1.MachineService", "method": "WatchRun"}],
+  "retryPolicy": {"maxAttempts": 4, "initialBackoff": "0.2s", "maxBackoff": "2s", "backoffMultiplier": 3,
+                  "retryableStatusCodes": ["UNAVAILABLE"]}}]})";
+// Of a request that is tried again: what is longer is sent once. A program of a million lines.
+constexpr int kKeptRequestBytes = 64 << 20;
+
 // What gRPC, too, takes for this machine.
 bool is_loopback(const std::string& address) {
   const std::string host = address.substr(0, address.rfind(':'));
@@ -67,6 +84,8 @@ std::shared_ptr<grpc::Channel> open_channel(const Connection& connection, const 
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number of them
   // A new channel is a new connection: one that is not to be trusted any more can be left.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  arguments.SetServiceConfigJSON(kServiceConfig);
+  arguments.SetInt(GRPC_ARG_PER_RPC_RETRY_BUFFER_SIZE, kKeptRequestBytes);
   set(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, pace.first_pause);
   set(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, pace.longest_pause);
   return grpc::CreateCustomChannel(connection.address, credentials(connection), arguments);

@@ -1,9 +1,11 @@
 // A running StreamSetpoints call. Used inside the library alone.
 #pragma once
 
+#include <grpcpp/support/status.h>
 #include <grpcpp/support/sync_stream.h>
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -24,11 +26,18 @@ class SetpointStream::Call {
   bool next(SetpointBatch& batch);
 
  private:
+  void open();
+  bool can_go_on(const grpc::Status& status);
+
   std::shared_ptr<v1::PlanningService::Stub> stub_;  // kept as long as the call runs
   std::string address_;
-  CallContext context_;
+  v1::StreamSetpointsRequest request_;  // what is still wanted
+  std::stop_token stop_;
+  std::optional<CallContext> context_;
   std::unique_ptr<grpc::ClientReader<v1::SetpointBatch>> reader_;  // none when the stream has ended
   v1::SetpointBatch message_;                                      // kept for its memory
+  bool has_answered_ = false;                                      // since it was opened last
+  bool is_complete_ = false;                                       // all that is wanted has come
 };
 
 }  // namespace kcs::client

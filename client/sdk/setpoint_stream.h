@@ -58,7 +58,8 @@ class SetpointStream {
   ~SetpointStream();
 
   // Waits for the next batch and puts it into `batch`, reusing its memory. False when the stream has ended after its
-  // last batch. Throws Error if it broke off; it can then be taken up again at the next index with a new stream.
+  // last batch. Where the server goes away meanwhile it goes on from the next setpoint with whichever server is there,
+  // unless it has a pace (lead_s). Throws Error if it broke off; a new stream can take it up at the next index.
   bool next(SetpointBatch& batch);
 
  private:
