@@ -1,41 +1,20 @@
 #include "tests/soak/server_lives.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <httplib.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <fstream>
-#include <random>
 #include <sstream>
 #include <stdexcept>
+
+#include "tests/system/free_port.h"
 
 namespace kcs::soak {
 namespace {
 
 // Clients may take so long to notice that their connection is gone, on a busy machine.
 constexpr std::chrono::seconds kAfterwards{5};
-
-// A port that nobody uses, below those that connections get at their other end: while the server is away, a client
-// that knocks there must not take the port itself.
-int free_port() {
-  std::random_device random;
-  std::uniform_int_distribution ports(10'000, 30'000);
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(static_cast<std::uint16_t>(ports(random)));
-    const int probe = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const bool is_free = bind(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-    close(probe);
-    if (is_free) return ntohs(address.sin_port);
-  }
-  throw std::runtime_error("no port is free");
-}
 
 std::string write_settings(const std::filesystem::path& folder) {
   const std::string file = folder / "kcsd.toml";
@@ -58,8 +37,8 @@ double figure(const std::string& exposition, const std::string& name) {
 }  // namespace
 
 ServerLives::ServerLives(const std::filesystem::path& folder)
-    : address_(fmt::format("127.0.0.1:{}", free_port())),
-      http_address_(fmt::format("127.0.0.1:{}", free_port())),
+    : address_(fmt::format("127.0.0.1:{}", test::free_port())),
+      http_address_(fmt::format("127.0.0.1:{}", test::free_port())),
       settings_(write_settings(folder)) {
   start();
 }

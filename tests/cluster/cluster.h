@@ -1,0 +1,57 @@
+// Several kcsd with one PostgreSQL, behind one HAProxy: deploy/compose, as processes of this machine.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/files/temporary_folder.h"
+#include "tests/store/postgres_server.h"
+#include "tests/system/child_process.h"
+#include "tests/system/kcsd_process.h"
+
+namespace kcs::test {
+
+class Cluster {
+ public:
+  // Why there can be none here; nothing: there can.
+  static std::optional<std::string> missing();
+
+  // The balancer knows `places` servers; none of them runs yet. Throws std::runtime_error if something does not start,
+  // as all of this does.
+  explicit Cluster(std::size_t places);
+
+  // Of the balancer, for clients and gateways.
+  const std::string& address() const { return address_; }
+
+  std::size_t places() const { return places_.size(); }
+  bool runs(std::size_t place) const { return places_[place].kcsd != nullptr; }
+  // Adds a server, and waits until the balancer sends calls to it.
+  void start(std::size_t place);
+  // kill -9.
+  void kill(std::size_t place);
+  // SIGTERM, which lets it end what it does; its exit code.
+  int drain(std::size_t place);
+  ChildProcess& process(std::size_t place) { return places_[place].kcsd->process(); }
+  // The server that a machine is attached to; nothing: none.
+  std::optional<std::size_t> place_of(const std::string& machine) const;
+
+ private:
+  struct Place {
+    std::string address, http_address;
+    std::unique_ptr<KcsdProcess> kcsd;  // null: does not run
+  };
+  std::filesystem::path write_balancer() const;
+  bool is_up(std::size_t place) const;
+
+  TemporaryFolder folder_;
+  PostgresServer postgres_;
+  std::filesystem::path settings_;
+  std::vector<Place> places_;
+  std::string address_, figures_address_;
+  std::unique_ptr<ChildProcess> balancer_;
+};
+
+}  // namespace kcs::test
