@@ -18,7 +18,8 @@ namespace {
 bool is_unix(const std::string& address) { return address.starts_with("unix:"); }
 
 // What is safe is tried again, by gRPC itself, unless an answer has begun: asked twice, each of these answers as if it
-// had been asked once. A plan's name is made from its request, so that this holds for CreatePlan, too.
+// had been asked once. A plan's name is made from its request, so that this holds for CreatePlan, too. The codes are
+// those of is_lost(); what the caller cancels is never tried again.
 constexpr const char* kServiceConfig = R"({"methodConfig": [{
   "name": [{"service": "kcs.v1.PlanningService", "method": "CreatePlan"},
            {"service": "kcs.v1.PlanningService", "method": "GetPlan"},
@@ -30,7 +31,7 @@ constexpr const char* kServiceConfig = R"({"methodConfig": [{
            {"service": "kcs.v1.MachineService", "method": "GetRun"},
            {"service": "kcs.v1.MachineService", "method": "WatchRun"}],
   "retryPolicy": {"maxAttempts": 4, "initialBackoff": "0.2s", "maxBackoff": "2s", "backoffMultiplier": 3,
-                  "retryableStatusCodes": ["UNAVAILABLE"]}}]})";
+                  "retryableStatusCodes": ["UNAVAILABLE", "CANCELLED", "UNKNOWN"]}}]})";
 // Of a request that is tried again: what is longer is sent once. A program of a million lines.
 constexpr int kKeptRequestBytes = 64 << 20;
 

@@ -47,7 +47,7 @@ bool SetpointStream::Call::next(SetpointBatch& batch) {
 // A server that went away in the middle: whoever is there now gives the same setpoints. gRPC itself tries again what
 // has not been answered at all (channel.h). The pace of a machine is not taken up: it counts from the call's time.
 bool SetpointStream::Call::can_go_on(const grpc::Status& status) {
-  return status.error_code() == grpc::StatusCode::UNAVAILABLE && has_answered_ && !request_.has_lead_s();
+  return is_lost(status) && !stop_.stop_requested() && has_answered_ && !request_.has_lead_s();
 }
 
 SetpointStream::SetpointStream(std::unique_ptr<Call> call) : call_(std::move(call)) {}

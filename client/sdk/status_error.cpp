@@ -50,4 +50,15 @@ void throw_error(const grpc::Status& status, const std::string& address) {
   throw Error(code_name(status.error_code()), message, violations_of(status));
 }
 
+bool is_lost(const grpc::Status& status) {
+  switch (status.error_code()) {
+    case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::CANCELLED:
+    case grpc::StatusCode::UNKNOWN:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace kcs::client

@@ -109,6 +109,14 @@ int Cluster::drain(std::size_t place) {
   return code;
 }
 
+std::string Cluster::log() const {
+  std::string log;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (runs(i)) log += fmt::format("{}:\n{}", places_[i].address, places_[i].kcsd->process().errors());
+  }
+  return log;
+}
+
 std::optional<std::size_t> Cluster::place_of(const std::string& machine) const {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (!runs(i)) continue;
@@ -119,7 +127,8 @@ std::optional<std::size_t> Cluster::place_of(const std::string& machine) const {
     v1::ListMachinesResponse machines;
     if (!stub->ListMachines(&context, {}, &machines).ok()) continue;
     const auto& list = machines.machines();
-    if (std::any_of(list.begin(), list.end(), [&](const auto& it) { return it.hello().machine() == machine; })) return i;
+    if (std::any_of(list.begin(), list.end(), [&](const auto& it) { return it.hello().machine() == machine; }))
+      return i;
   }
   return std::nullopt;
 }

@@ -22,7 +22,7 @@ from kcs._arrays import Table
 from kcs._embedded import EmbeddedServer
 from kcs._plan_record import PlanRecord, from_message
 from kcs._requests import AnyMachine, Gcode, Strategy, ToleranceKind, plan_requests
-from kcs.connection import Connection
+from kcs.connection import LOST, Connection
 from kcs.errors import Error
 from kcs.setpoints import Channel, SetpointRequest, Setpoints, join
 
@@ -169,7 +169,7 @@ class Plan(PlanRecord):
                     yield request.take(batch)
                 return
             except Error as failure:
-                if failure.code != "UNAVAILABLE" or came == 0:
+                if failure.code not in LOST or came == 0:
                     raise
 
     async def plot(

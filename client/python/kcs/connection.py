@@ -10,7 +10,11 @@ import grpc
 
 from kcs._contract import SERVICE
 
-__all__ = ["Connection"]
+__all__ = ["LOST", "Connection"]
+
+# The codes of calls whose server went away. One behind a balancer that dies ends them as the last two, which kcsd never
+# answers to a client that waits.
+LOST: Final = ("UNAVAILABLE", "CANCELLED", "UNKNOWN")
 
 # The safe ones: asked twice, each answers as if it had been asked once. A plan's name is made from its request, so that
 # holds for CreatePlan, too. gRPC itself tries them again, unless an answer has begun.
@@ -24,7 +28,7 @@ _SERVICE_CONFIG: Final = {
                 "initialBackoff": "0.2s",
                 "maxBackoff": "2s",
                 "backoffMultiplier": 3,
-                "retryableStatusCodes": ["UNAVAILABLE"],
+                "retryableStatusCodes": LOST,
             },
         }
     ]
