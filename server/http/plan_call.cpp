@@ -28,7 +28,7 @@ class PlanCall::Context : public grpc::ClientContext {
 
   // To be called once the call is over.
   void note_request_id() {
-    const auto& metadata = GetServerInitialMetadata();
+    const auto& metadata = GetServerTrailingMetadata();
     const auto id = metadata.find("x-request-id");
     if (id == metadata.end()) return;
     call_.request_id_.assign(id->second.data(), id->second.size());

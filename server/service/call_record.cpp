@@ -49,7 +49,8 @@ CallRecord::CallRecord(const Observation& observation, std::string_view method, 
       context_(context),
       request_id_(request_id_of(context)),
       running_(observation.metrics.rpcs_running.with({method_})) {
-  context.AddInitialMetadata(kRequestIdKey, request_id_);
+  // Not the initial metadata: an answer that has begun is tried again by no client (gRFC A6), even if it is a refusal.
+  context.AddTrailingMetadata(kRequestIdKey, request_id_);
 }
 
 void CallRecord::note(const std::string& field, std::string_view text) {

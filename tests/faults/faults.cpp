@@ -64,12 +64,12 @@ void lose_link(Scene& scene, Chance&) {
 void corrupt_byte(Scene& scene, Chance&) { scene.cable().corrupt(); }
 
 void pause_server(Scene& scene, Chance& chance) {
-  scene.pause_server(true);
+  scene.service().pause(true);
   wait(chance.time(1, 700));
-  scene.pause_server(false);
+  scene.service().pause(false);
 }
 
-void kill_server(Scene& scene, Chance& chance) { scene.restart_server(chance.time(0, 500)); }
+void kill_server(Scene& scene, Chance& chance) { scene.service().kill_and_restart(chance.time(0, 500)); }
 
 void kill_gateway(Scene& scene, Chance& chance) { scene.restart_gateway(chance.time(0, 500)); }
 
@@ -103,6 +103,7 @@ std::vector<Fault> all_faults() {
           {.name = "byte corrupted", .happen = corrupt_byte},
           {.name = "server slow", .happen = pause_server},
           {.name = "server kill -9", .happen = kill_server},
+          {.name = "replica kill -9", .happen = kill_server, .replicas = true},
           {.name = "batch repeated", .happen = repeat_batch, .scrambles = true},
           {.name = "batches reordered", .happen = reorder_batches, .scrambles = true},
           {.name = "batch lost", .happen = lose_batch, .scrambles = true},

@@ -18,6 +18,7 @@ struct Fault {
   bool stops_by_tail = true;                    // every stop is the tail of a batch
   bool scrambles = false;                       // batches on their way
   bool kills_gateway = false;                   // for drives that outlive it
+  bool replicas = false;                        // of the server, behind a balancer
 };
 
 std::vector<Fault> all_faults();

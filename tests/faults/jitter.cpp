@@ -24,7 +24,7 @@ std::string jitter_in(const std::string& log) {
 // True if no motion was missing and all of it was good.
 bool run_for(std::chrono::seconds time) {
   const Program program = dense_program();
-  Scene scene(simulated_drives(), ProgramCursor(program, kPiece), false);
+  Scene scene(simulated_drives(), ProgramCursor(program, kPiece));
   for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;) {
     scene.go_on();
     scene.run_to_end();

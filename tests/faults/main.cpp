@@ -53,7 +53,7 @@ std::string find_fault(const Verdict& verdict, const Figures& figures, const Fau
 bool try_fault(const Program& program, const std::string& driver, const Fault& fault, const Options& options,
                Chance& chance) {
   Scene scene(driver == "hal" ? hal_drives() : simulated_drives(), ProgramCursor(program, options.piece),
-              fault.scrambles);
+              fault.scrambles, fault.replicas ? replicas() : one_server());
   std::vector<double> instants;
   while (instants.size() < options.count) {
     scene.go_on();
@@ -94,6 +94,10 @@ bool try_all(const Options& options) {
       for (const Fault& fault : all_faults()) {
         const bool wanted = is_asked_for(options.only, fault.name) && fault.name != options.skip;
         if (!wanted || (fault.kills_gateway && driver != std::string("hal"))) continue;
+        if (const auto missing = fault.replicas ? missing_for_replicas() : std::nullopt) {
+          fmt::print("{:<8}{:<11}{:<18}skipped: {}\n", program.name, driver, fault.name, *missing);
+          continue;
+        }
         good = try_fault(program, driver, fault, options, chance) && good;
       }
     }

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "client/sdk/machine_key.h"
+
 namespace kcs::faults {
 namespace {
 
@@ -14,9 +16,14 @@ using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{60}, kLongestRun{600};
 constexpr milliseconds kLookAgain{5};
+constexpr std::chrono::duration<int, std::milli> kReconnect{100};
 
 struct Call : grpc::ClientContext {
   Call() { set_deadline(std::chrono::system_clock::now() + kPatience); }
+};
+
+struct MachineCall : Call {
+  MachineCall() { client::say_machine(*this, "machines/bench"); }
 };
 
 // Until `attempt` returns an OK status; throws with the last one.
@@ -44,35 +51,24 @@ bool is_attached(const v1::Run& run) { return run.machine_state() != v1::MACHINE
 
 }  // namespace
 
-Scene::Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor, bool scrambles)
-    : drives_(std::move(drives)), cursor_(cursor) {
-  start_server();
-  if (scrambles) scrambler_ = std::make_unique<Scrambler>(listen_);
-  const int port = std::stoi(listen_.substr(listen_.rfind(':') + 1));
+Scene::Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor, bool scrambles,
+             std::unique_ptr<Service> service)
+    : drives_(std::move(drives)), cursor_(cursor), service_(std::move(service)) {
+  const std::string& address = service_->address();
+  grpc::ChannelArguments arguments;  // soon there again when the server is
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kReconnect.count());
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kReconnect.count());
+  const auto channel = grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  machines_ = v1::MachineService::NewStub(channel);
+  planning_ = v1::PlanningService::NewStub(channel);
+  if (scrambles) scrambler_ = std::make_unique<Scrambler>(address);
+  const int port = std::stoi(address.substr(address.rfind(':') + 1));
   cable_ = std::make_unique<test::Cable>(scrambles ? scrambler_->port() : port);
   start_gateway();
 }
 
-void Scene::start_server() {
-  server_ = std::make_unique<test::KcsdProcess>(std::vector<std::string>{
-      KCSD, "--listen", listen_, "--database", "sqlite:" + (folder_.path() / "plans.db").string()});
-  listen_ = server_->address();
-  const auto channel = grpc::CreateChannel(listen_, grpc::InsecureChannelCredentials());
-  machines_ = v1::MachineService::NewStub(channel);
-  planning_ = v1::PlanningService::NewStub(channel);
-}
-
 void Scene::start_gateway() {
   gateway_ = std::make_unique<test::ChildProcess>(drives_->gateway_command(cable_->address()));
-}
-
-void Scene::pause_server(bool paused) { server_->process().send_signal(paused ? SIGSTOP : SIGCONT); }
-
-void Scene::restart_server(milliseconds down) {
-  server_->process().send_signal(SIGKILL);
-  server_->process().wait();
-  std::this_thread::sleep_for(down);
-  start_server();
 }
 
 void Scene::restart_gateway(milliseconds down) {
@@ -101,7 +97,7 @@ void Scene::begin(const planning::Toolpath& path) {
   planning::Plan plan = make_plan(path);
   runs_.push_back({.plan = std::move(plan), .begun = drives_->now()});
   insist("the run does not begin", [&] {
-    Call call;
+    MachineCall call;
     v1::Run run;
     const grpc::Status status = machines_->RunPlan(&call, request, &run);
     run_ = run.name();
@@ -112,7 +108,7 @@ void Scene::begin(const planning::Toolpath& path) {
 v1::Run Scene::run() {
   v1::Run run;
   insist("nothing is known of the run", [&] {
-    Call call;
+    MachineCall call;
     return machines_->GetRun(&call, named<v1::GetRunRequest>(run_), &run);
   });
   return run;
@@ -121,7 +117,7 @@ v1::Run Scene::run() {
 motion::Vector Scene::machine_position() {
   v1::ListMachinesResponse machines;
   insist("where the machine is, is not known", [&] {
-    Call call;
+    MachineCall call;
     const grpc::Status status = machines_->ListMachines(&call, {}, &machines);
     if (!status.ok() || machines.machines_size() == 1) return status;
     return grpc::Status(grpc::StatusCode::UNAVAILABLE, "the machine is not attached");
@@ -131,25 +127,25 @@ motion::Vector Scene::machine_position() {
 }
 
 void Scene::hold() {
-  Call call;
+  MachineCall call;
   v1::Run run;
   machines_->HoldRun(&call, named<v1::HoldRunRequest>(run_), &run);
 }
 
 void Scene::resume() {
-  Call call;
+  MachineCall call;
   v1::Run run;
   machines_->ResumeRun(&call, named<v1::ResumeRunRequest>(run_), &run);
 }
 
 void Scene::abort() {
-  Call call;
+  MachineCall call;
   v1::Run run;
   machines_->AbortRun(&call, named<v1::AbortRunRequest>(run_), &run);
 }
 
 void Scene::set_override(double percent) {
-  Call call;
+  MachineCall call;
   auto request = named<v1::SetFeedOverrideRequest>(run_);
   request.set_feed_override_percent(percent);
   v1::Run run;

@@ -1,4 +1,4 @@
-// A kcsd, a gateway with its drives, a line between them, and one run after the other.
+// A service, a gateway with its drives, a line between them, and one run after the other.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -15,8 +15,8 @@
 #include "tests/faults/judge.h"
 #include "tests/faults/program.h"
 #include "tests/faults/scrambler.h"
-#include "tests/files/temporary_folder.h"
-#include "tests/system/kcsd_process.h"
+#include "tests/faults/service.h"
+#include "tests/system/child_process.h"
 
 namespace kcs::faults {
 
@@ -24,14 +24,14 @@ class Scene {
  public:
   // Everything up, nothing run yet; with a scrambler before the server if there is to be one. Throws std::runtime_error
   // if something does not work, as all of this does.
-  Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor, bool scrambles);
+  Scene(std::unique_ptr<Drives> drives, const ProgramCursor& cursor, bool scrambles = false,
+        std::unique_ptr<Service> service = one_server());
 
   const Drives& drives() const { return *drives_; }
   test::Cable& cable() { return *cable_; }
   Scrambler& scrambler() { return *scrambler_; }
-  void pause_server(bool paused);
-  // kill -9, and a new one: of the server on the same port and database.
-  void restart_server(std::chrono::milliseconds down);
+  Service& service() { return *service_; }
+  // kill -9, and a new one.
   void restart_gateway(std::chrono::milliseconds down);
 
   // Waits until the machine moves: resumes its run as often as it is held, begins the next one when it is over.
@@ -54,7 +54,6 @@ class Scene {
   std::string log() const { return gateway_->errors(); }
 
  private:
-  void start_server();
   void start_gateway();
   void begin(const planning::Toolpath& path);
   std::string create_plan(const planning::Toolpath& path);
@@ -66,9 +65,7 @@ class Scene {
 
   std::unique_ptr<Drives> drives_;
   ProgramCursor cursor_;
-  test::TemporaryFolder folder_;
-  std::string listen_ = "127.0.0.1:0";
-  std::unique_ptr<test::KcsdProcess> server_;
+  std::unique_ptr<Service> service_;
   std::unique_ptr<Scrambler> scrambler_;
   std::unique_ptr<test::Cable> cable_;
   std::unique_ptr<test::ChildProcess> gateway_;

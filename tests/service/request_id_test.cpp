@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kKey = "x-request-id";
 
 std::string id_sent_back(const grpc::ClientContext& call) {
-  const auto& metadata = call.GetServerInitialMetadata();
+  const auto& metadata = call.GetServerTrailingMetadata();
   const auto found = metadata.find(kKey);
   return found == metadata.end() ? "" : std::string(found->second.data(), found->second.size());
 }
@@ -46,6 +46,12 @@ TEST_F(RequestId, OfTheClientIsKept) {
   EXPECT_EQ(logged[0]["level"], "info");
   EXPECT_GT(logged[0]["duration_s"], 0);
   EXPECT_TRUE(logged[0]["peer"].get<std::string>().starts_with("ipv4:127.0.0.1:"));
+}
+
+TEST_F(RequestId, IsNoAnswerYetSoThatGrpcTriesARefusedCallAgain) {
+  Call call;
+  ask(call);
+  EXPECT_TRUE(call.GetServerInitialMetadata().empty());
 }
 
 TEST_F(RequestId, IsMadeUpWhereTheClientGivesNoneOrNonsense) {
@@ -93,16 +99,15 @@ TEST_F(RequestId, StandsBesideTheFieldViolations) {
   EXPECT_EQ(detail<google::rpc::RequestInfo>(refused.status).request_id().size(), 32U);
 }
 
-TEST_F(RequestId, OfAStreamIsThereBeforeItsFirstMessage) {
+TEST_F(RequestId, OfAStreamComesWithItsEnd) {
   const std::string name = server_.create({request(options()), request(right_angle())}).message.name();
   Call call;
   call.AddMetadata(kKey, "stream");
   const auto reader = server_.stub().StreamSetpoints(&call, setpoints(name, 1e-3));
-  reader->WaitForInitialMetadata();
-  EXPECT_EQ(id_sent_back(call), "stream");
   v1::SetpointBatch batch;
   while (reader->Read(&batch)) continue;
   EXPECT_TRUE(reader->Finish().ok());
+  EXPECT_EQ(id_sent_back(call), "stream");
 }
 
 TEST_F(RequestId, DoesNotBringLongOrUnprintableTextIntoTheLog) {
