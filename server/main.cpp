@@ -18,6 +18,7 @@
 #include "server/service/config.h"
 #include "server/service/logging.h"
 #include "server/service/server.h"
+#include "server/store/schema_command.h"
 #include "server/systemd/service_manager.h"
 #include "server/version/version.h"
 
@@ -35,6 +36,7 @@ struct Flags {
   std::optional<std::string> log_level;
   std::optional<std::string> log_format;
   bool insecure = false;
+  std::optional<int> schema;
   bool new_token = false;
   bool hash_token = false;
 };
@@ -130,6 +132,8 @@ int main(int argc, char** argv) {
   app.add_option("--log-level", flags.log_level, "debug, info, warning, error or off [info]");
   app.add_option("--log-format", flags.log_format, "text or json [text]");
   app.add_flag("--insecure", flags.insecure, "Listen beyond this machine even without TLS, or to everybody");
+  app.add_option("--schema", flags.schema,
+                 "Bring the tables of the store to this version, forward or back, print what is lost; end");
   app.add_flag("--new-token", flags.new_token, "Print a new token, and to the standard error what to configure; end");
   app.add_flag("--hash-token", flags.hash_token, "Read a token from the standard input, print what to configure; end");
   CLI11_PARSE(app, argc, argv);
@@ -137,6 +141,7 @@ int main(int argc, char** argv) {
     if (flags.new_token) return kcs::security::make_token(std::cout, std::cerr), EXIT_SUCCESS;
     if (flags.hash_token) return kcs::security::hash_token(std::cin, std::cout), EXIT_SUCCESS;
     Config config = settings(flags);
+    if (flags.schema) return kcs::store::change_schema(config.server.store, *flags.schema, std::cout), EXIT_SUCCESS;
     config.server.machines = shipped_machines();
     config.server.log = kcs::service::set_up_logging(config.log_level, config.server.observe.log_format);
     serve(config);

@@ -46,6 +46,10 @@ class Dialect {
   // other writers. False if there is no more.
   virtual bool shrink(soci::session& session) const = 0;
 
+  // Whether other processes have the database open as kcsd does; not within a transaction. Whoever is about to connect
+  // is not seen.
+  virtual bool has_other_users(soci::session& session) const = 0;
+
   // SQL: the time now, µs since 1970.
   virtual std::string now() const = 0;
   // SQL: the type of a column of bytes.

@@ -129,6 +129,14 @@ void Postgresql::begin(soci::session& session, const std::string& subject) const
 
 bool Postgresql::shrink(soci::session& /*session*/) const { return false; }
 
+bool Postgresql::has_other_users(soci::session& session) const {
+  long long others = 0;
+  session << "select count(*) from pg_stat_activity where datname = current_database() and pid <> pg_backend_pid() and "
+             "application_name = current_setting('application_name')",
+      soci::into(others);
+  return others > 0;
+}
+
 std::string Postgresql::now() const { return "cast(extract(epoch from clock_timestamp()) * 1000000 as bigint)"; }
 
 std::string_view Postgresql::bytes_type() const { return "bytea"; }

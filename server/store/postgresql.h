@@ -25,6 +25,7 @@ class Postgresql : public Dialect {
   Turn turn() const override;
   void begin(soci::session& session, const std::string& subject) const override;
   bool shrink(soci::session& session) const override;
+  bool has_other_users(soci::session& session) const override;
   std::string now() const override;
   std::string_view bytes_type() const override;
   std::string bytes_of_parameter(std::string_view parameter) const override;

@@ -2,94 +2,89 @@
 
 #include <fmt/format.h>
 
-#include <string>
-#include <vector>
-
 #include "server/store/errors.h"
+#include "server/store/schema_steps.h"
 
 namespace kcs::store {
 namespace {
 
-using Statements = std::vector<std::string>;
+using Steps = std::array<SchemaStep, kSchemaVersion>;
 
-// What leads from each version to the next. A version that was released never changes: a new one is added.
-std::vector<Statements> steps(const Dialect& dialect) {
-  const std::string_view bytes = dialect.bytes_type();
-  return {
-      {fmt::format(R"(create table plans (
-                        name text primary key,
-                        machine_name text not null,
-                        state smallint not null,
-                        cycle_time double precision,
-                        outcome {} not null,
-                        request_bytes bigint not null,
-                        stored_bytes bigint not null,
-                        accept_time bigint not null,
-                        use_time bigint not null,
-                        planner text not null,
-                        lease_end bigint not null))",
-                   bytes),
-       "create index plans_by_use on plans (use_time)",
-       "create index plans_to_plan on plans (accept_time) where state = 0",
-       R"(create table owners (
-            owner text not null,
-            name text not null,
-            create_time bigint not null,
-            primary key (owner, name)))",
-       "create index owners_by_plan on owners (name)",
-       "create index owners_by_time on owners (owner, create_time, name)",
-       fmt::format(R"(create table request_rows (
-                        name text not null,
-                        position integer not null,
-                        bytes {} not null,
-                        primary key (name, position)))",
-                   bytes)},
-      {R"(create table machines (
-            machine text primary key,
-            runs bigint not null))",
-       R"(create table runs (
-            name text primary key,
-            machine text not null,
-            plan text not null,
-            controller text not null,
-            state smallint not null,
-            held smallint not null,
-            feed_override double precision not null,
-            plan_time double precision not null,
-            reason text not null,
-            create_time bigint not null,
-            change_time bigint not null))",
-       "create unique index open_runs on runs (machine) where state = 0",
-       "create index ended_runs on runs (change_time) where state <> 0"},
-  };
+// One change at a time.
+constexpr const char* kSubject = "schema";
+
+int version_in(soci::session& session) {
+  session << "create table if not exists kcs_schema (version integer not null)";
+  session << "insert into kcs_schema (version) select 0 where not exists (select 1 from kcs_schema)";
+  int version = 0;
+  session << "select version from kcs_schema", soci::into(version);
+  return version;
 }
 
-std::size_t version_in(soci::session& session) {
-  session << "create table if not exists kcs_schema (version integer not null)";
-  int version = 0;
-  session << "select coalesce(max(version), 0) from kcs_schema", soci::into(version);
-  return static_cast<std::size_t>(version);
+void run(soci::session& session, const std::vector<std::string>& statements, int new_version) {
+  for (const std::string& statement : statements) session << statement;
+  session << fmt::format("update kcs_schema set version = {}", new_version);
+}
+
+void go_forward(soci::session& session, const Steps& steps, int from, int to) {
+  for (int version = from; version < to; ++version) run(session, steps[version].forward, version + 1);
+}
+
+std::vector<std::string> go_back(soci::session& session, const Steps& steps, int from, int to) {
+  std::vector<std::string> lost;
+  for (int version = from; version > to; --version) {
+    const SchemaStep& step = steps[version - 1];
+    run(session, step.back, version - 1);
+    if (!step.lost.empty()) lost.push_back(step.lost);
+  }
+  return lost;
+}
+
+[[noreturn]] void refuse_newer(const Dialect& dialect, int version) {
+  throw StoreError(fmt::format(
+      "the store's database ({}) was made by a newer kcsd: its tables have version {}, this kcsd can use them up to "
+      "version {}; start the newer one, or stop all and have the newer one take the tables back: kcsd --schema {}",
+      dialect.description(), version, kSchemaVersion, kSchemaVersion));
 }
 
 }  // namespace
 
 void prepare_schema(Connections& connections) {
-  const std::vector<Statements> all = steps(connections.dialect());
-  const std::size_t version = connections.write("schema", [&all](soci::session& session) {
-    const std::size_t found = version_in(session);
-    for (std::size_t step = found; step < all.size(); ++step) {
-      for (const std::string& statement : all[step]) session << statement;
-      session << "delete from kcs_schema";
-      session << fmt::format("insert into kcs_schema (version) values ({})", step + 1);
-    }
-    return found;
+  const Dialect& dialect = connections.dialect();
+  connections.write(kSubject, [&dialect](soci::session& session) {
+    const int version = version_in(session);
+    int usable_from = 0;
+    if (version > kSchemaVersion) session << "select usable_from from kcs_schema", soci::into(usable_from);
+    if (usable_from > kSchemaVersion) refuse_newer(dialect, version);
+    go_forward(session, schema_steps(dialect), version, kSchemaVersion);
+    return true;
   });
-  if (version > all.size()) {
-    throw StoreError(fmt::format(
-        "the store's database ({}) was made by a newer kcsd: its schema has version {}, this kcsd knows {}; "
-        "start the newer one, or give this one a database of its own",
-        connections.dialect().description(), version, all.size()));
+}
+
+SchemaChange move_schema(Connections& connections, int version) {
+  const Dialect& dialect = connections.dialect();
+  if (version < 1 || version > kSchemaVersion) {
+    throw StoreError(
+        fmt::format("there is no version {} of the store's tables: this kcsd knows 1 to {}", version, kSchemaVersion));
   }
+  const bool is_shared =
+      connections.read([&dialect](soci::session& session) { return dialect.has_other_users(session); });
+  return connections.write(kSubject, [&](soci::session& session) {
+    const int found = version_in(session);
+    if (found > kSchemaVersion) refuse_newer(dialect, found);
+    if (found == 0) {
+      throw StoreError(fmt::format("the store's database ({}) has no tables of kcsd: see whether it is the right one",
+                                   dialect.description()));
+    }
+    if (found > version && is_shared) {
+      throw StoreError(
+          fmt::format("the store's database ({}) is in use: stop every kcsd that has it before its tables go back from "
+                      "version {} to {}",
+                      dialect.description(), found, version));
+    }
+    go_forward(session, schema_steps(dialect), found, version);
+    return SchemaChange{.from = found, .lost = go_back(session, schema_steps(dialect), found, version)};
+  });
 }
 
 }  // namespace kcs::store

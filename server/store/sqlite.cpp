@@ -127,6 +127,17 @@ bool Sqlite::shrink(soci::session& session) const {
   return after > 0 && after < before;  // a file that was made otherwise gives nothing back
 }
 
+bool Sqlite::has_other_users(soci::session& session) const {
+  try {
+    // Only who has the file alone may do without its log, until open() asks for it again.
+    session << "pragma journal_mode = delete";
+    return false;
+  } catch (const soci::sqlite3_soci_error& error) {
+    if (error.result() == SQLITE_BUSY) return true;
+    throw;
+  }
+}
+
 std::string Sqlite::now() const {
   // SQLite's own clock counts milliseconds.
   const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();

@@ -1,5 +1,6 @@
 // deploy/README.md and deploy/kcsd.toml, for those who run kcsd: all settings and figures that there are, and no
 // others.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
 #include <toml++/toml.h>
@@ -15,6 +16,7 @@
 #include <string>
 
 #include "server/service/config.h"
+#include "server/store/schema_command.h"
 #include "tests/service/test_server.h"
 
 namespace kcs::service::test {
@@ -102,6 +104,11 @@ TEST(OperatePage, NamesEveryFigureThatKcsdShows) {
   const auto shown = all(figures->body, "# TYPE ([a-z_]+) ");
   EXPECT_GT(shown.size(), 10);
   EXPECT_EQ(all(content("README.md"), R"(\n\| `((?:kcs|process)_[a-z_]+)[`{])"), shown);
+}
+
+TEST(OperatePage, SaysWhichTablesThisVersionMakes) {
+  EXPECT_NE(content("README.md").find(fmt::format("\n| {} | {} |", KCS_VERSION, store::kSchemaVersion)),
+            std::string::npos);
 }
 
 }  // namespace

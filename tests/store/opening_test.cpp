@@ -13,6 +13,7 @@ namespace kcs::store {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // What the store says when it is opened, or empty if it opens. `Failure`: just this exception.
@@ -42,11 +43,11 @@ TEST_P(Opening, ManyMayOpenAnEmptyDatabaseAtTheSameMoment) {
   EXPECT_EQ(Store(settings_).list("ada", {}, 100, "").records.size(), 8);
 }
 
-TEST_P(Opening, RefusesASchemaOfANewerVersion) {
+TEST_P(Opening, RefusesASchemaThatOnlyNewerServersCanUse) {
   { const Store store(settings_); }
-  query(settings_, "update kcs_schema set version = version + 1");
-  EXPECT_THAT(failure<StoreError>(settings_), HasSubstr("made by a newer kcsd"));
-  query(settings_, "update kcs_schema set version = version - 1");
+  query(settings_, "update kcs_schema set version = 4, usable_from = 4");
+  EXPECT_THAT(failure<StoreError>(settings_), AllOf(HasSubstr("made by a newer kcsd"), HasSubstr("kcsd --schema 3")));
+  query(settings_, "update kcs_schema set version = 3, usable_from = 3");
   EXPECT_EQ(failure<StoreError>(settings_), "");
 }
 
