@@ -17,6 +17,7 @@
 
 #include "server/service/config.h"
 #include "server/store/schema_command.h"
+#include "server/version/version.h"
 #include "tests/service/test_server.h"
 
 namespace kcs::service::test {
@@ -107,7 +108,7 @@ TEST(OperatePage, NamesEveryFigureThatKcsdShows) {
 }
 
 TEST(OperatePage, SaysWhichTablesThisVersionMakes) {
-  EXPECT_NE(content("README.md").find(fmt::format("\n| {} | {} |", KCS_VERSION, store::kSchemaVersion)),
+  EXPECT_NE(content("README.md").find(fmt::format("\n| {} | {} |", version(), store::kSchemaVersion)),
             std::string::npos);
 }
 
