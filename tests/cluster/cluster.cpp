@@ -46,7 +46,7 @@ std::optional<std::string> Cluster::missing() {
 Cluster::Cluster(std::size_t places)
     : settings_(folder_.path() / "kcsd.toml"), places_(places), address_(loopback()), figures_address_(loopback()) {
   std::ofstream(settings_) << fmt::format(
-      "[server]\nthreads = 1\n[store]\ndatabase = \"{}\"\npassword_file = \"{}\"\nlease_s = 1.0\n"
+      "[store]\ndatabase = \"{}\"\npassword_file = \"{}\"\nlease_s = 1.0\n"
       "[connections]\nlongest_age_s = 0.0\n",
       postgres_.create_database("plans"), postgres_.password_file().string());
   for (Place& place : places_) place = {.address = loopback(), .http_address = loopback(), .kcsd = nullptr};
@@ -107,6 +107,12 @@ int Cluster::drain(std::size_t place) {
   const int code = process(place).wait();
   places_[place].kcsd.reset();
   return code;
+}
+
+double Cluster::cpu_seconds() const {
+  double sum = 0;
+  for (const Place& place : places_) sum += place.kcsd ? place.kcsd->cpu_seconds() : 0;
+  return sum;
 }
 
 std::string Cluster::log() const {

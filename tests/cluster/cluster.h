@@ -35,6 +35,8 @@ class Cluster {
   // SIGTERM, which lets it end what it does; its exit code.
   int drain(std::size_t place);
   ChildProcess& process(std::size_t place) { return places_[place].kcsd->process(); }
+  // Time that all servers that run have taken of the processors so far, s.
+  double cpu_seconds() const;
   // What the servers that run have logged.
   std::string log() const;
   // The server that a machine is attached to; nothing: none.

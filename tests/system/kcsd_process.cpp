@@ -1,6 +1,9 @@
 #include "tests/system/kcsd_process.h"
 
+#include <unistd.h>
+
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -29,6 +32,19 @@ std::size_t KcsdProcess::status_figure(const std::string& word) const {
     if (found == word && file >> number) return number;
   }
   throw std::runtime_error("kcsd is gone: " + process_.errors());
+}
+
+double KcsdProcess::cpu_seconds() const {
+  std::ifstream file("/proc/" + std::to_string(process_.pid()) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  std::istringstream fields(line.substr(line.rfind(')') + 1));  // the name before it may have blanks
+  constexpr int kBefore = 11;                                   // fields between the name and the times
+  std::string skipped;
+  for (int i = 0; i < kBefore; ++i) fields >> skipped;
+  double user = 0, system = 0;
+  if (!(fields >> user >> system)) throw std::runtime_error("kcsd is gone: " + process_.errors());
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 std::string http_address_of(const ChildProcess& kcsd) {

@@ -23,6 +23,9 @@ class KcsdProcess {
   // std::runtime_error if the process is gone.
   std::size_t status_figure(const std::string& word) const;
 
+  // Time that its threads have taken of the processors so far, s. Throws likewise.
+  double cpu_seconds() const;
+
  private:
   ChildProcess process_;
   std::string address_;
