@@ -86,9 +86,9 @@ void measure_replicas(std::size_t count) {
   const std::string plan = Planner(cluster.address()).plan_points(path(1), options()).name;
   const Rate setpoints = measure(cluster, [&](Planner& planner, std::uint64_t) {
     client::SetpointStream stream = planner.stream_setpoints(plan, {.period_s = kStreamPeriod});
-    std::uint64_t count = 0;
-    for (client::SetpointBatch batch; stream.next(batch);) count += batch.size();
-    return count;
+    std::uint64_t read = 0;
+    for (client::SetpointBatch batch; stream.next(batch);) read += batch.size();
+    return read;
   });
   fmt::print("{:>8}{:>12.0f}{:>12.0f}{:>18.1f}{:>16.1f}{:>18.0f}\n", count, plans.per_second,
              plans.per_second * kSegments, 1000 * plans.processor_share / plans.per_second, setpoints.per_second / 1e6,
