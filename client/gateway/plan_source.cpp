@@ -22,13 +22,19 @@ void require_rest(const client::Plan& plan) {
                   plan.name));
 }
 
+// Who plays cannot wait for the library's pauses: the feed tries again by itself, and counts it.
+client::Connection in_own_time(client::Connection server) {
+  server.tries_again = false;
+  return server;
+}
+
 }  // namespace
 
 PlanSource::PlanSource(client::Connection server, std::string name)
-    : server_(std::move(server)), name_(std::move(name)) {}
+    : server_(in_own_time(std::move(server))), name_(std::move(name)) {}
 
 PlanSource::PlanSource(client::Connection server, Program program)
-    : server_(std::move(server)), program_(std::move(program)) {}
+    : server_(in_own_time(std::move(server))), program_(std::move(program)) {}
 
 client::Plan PlanSource::obtain() {
   connect();

@@ -85,7 +85,7 @@ std::shared_ptr<grpc::Channel> open_channel(const Connection& connection, const 
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number of them
   // A new channel is a new connection: one that is not to be trusted any more can be left.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  arguments.SetServiceConfigJSON(kServiceConfig);
+  if (connection.tries_again) arguments.SetServiceConfigJSON(kServiceConfig);
   arguments.SetInt(GRPC_ARG_PER_RPC_RETRY_BUFFER_SIZE, kKeptRequestBytes);
   set(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, pace.first_pause);
   set(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, pace.longest_pause);

@@ -21,10 +21,9 @@ struct ChannelPace {
   std::chrono::milliseconds longest_pause = std::chrono::minutes(2);
 };
 
-// Does not connect yet. What is safe to ask twice it asks again, up to 4 times within some seconds, where the server is
-// UNAVAILABLE; never what deletes, or moves a machine.
-// Throws std::system_error if a file cannot be read, Error ("INVALID_ARGUMENT") if the connection
-// contradicts itself, or would show its token to whoever listens on the network.
+// Does not connect yet. With connection.tries_again, calls that are safe to repeat are made up to 4 times. Throws
+// std::system_error if a file cannot be read, Error ("INVALID_ARGUMENT") if the connection contradicts itself, or would
+// show its token to whoever listens on the network.
 std::shared_ptr<grpc::Channel> open_channel(const Connection& connection, const ChannelPace& pace = {});
 
 }  // namespace kcs::client

@@ -24,6 +24,10 @@ struct Connection {
 
   // Each call gives up after this time if no server can be reached.
   std::chrono::milliseconds patience = std::chrono::seconds(5);
+
+  // Whether calls that are safe to repeat are, some times within seconds, where their server goes away meanwhile: none
+  // that deletes a plan or moves a machine. False for who does so himself, at his own times.
+  bool tries_again = true;
 };
 
 }  // namespace kcs::client

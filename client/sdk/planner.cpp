@@ -50,7 +50,7 @@ class Planner::Link {
 
   SetpointStream stream(const v1::StreamSetpointsRequest& request, const std::stop_token& stop) {
     stub(stop);
-    return SetpointStream(std::make_unique<SetpointStream::Call>(stub_, server_.address(), request, stop));
+    return SetpointStream(std::make_unique<SetpointStream::Call>(stub_, server_.connection(), request, stop));
   }
 
   LiveStream live(const PlanOptions& options, const LiveOptions& output, const std::stop_token& stop) {

@@ -20,6 +20,7 @@ class ServerLink {
   explicit ServerLink(std::shared_ptr<grpc::Channel> channel, Connection server = {});
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
+  const Connection& connection() const { return server_; }
   const std::string& address() const { return server_.address; }
 
   // Waits until the server can be reached. Throws Error: "UNAVAILABLE" if it cannot, at once if it refuses the

@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
-#include <string>
 
 #include "client/sdk/call_context.h"
+#include "client/sdk/connection.h"
 #include "client/sdk/setpoint_stream.h"
 #include "kcs/v1/planning.grpc.pb.h"
 
@@ -17,8 +17,8 @@ namespace kcs::client {
 
 class SetpointStream::Call {
  public:
-  Call(std::shared_ptr<v1::PlanningService::Stub> stub, std::string address, const v1::StreamSetpointsRequest& request,
-       const std::stop_token& stop);
+  Call(std::shared_ptr<v1::PlanningService::Stub> stub, const Connection& server,
+       const v1::StreamSetpointsRequest& request, const std::stop_token& stop);
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
@@ -30,7 +30,7 @@ class SetpointStream::Call {
   bool can_go_on(const grpc::Status& status);
 
   std::shared_ptr<v1::PlanningService::Stub> stub_;  // kept as long as the call runs
-  std::string address_;
+  Connection server_;
   v1::StreamSetpointsRequest request_;  // what is still wanted
   std::stop_token stop_;
   std::optional<CallContext> context_;

@@ -8,9 +8,9 @@
 
 namespace kcs::client {
 
-SetpointStream::Call::Call(std::shared_ptr<v1::PlanningService::Stub> stub, std::string address,
+SetpointStream::Call::Call(std::shared_ptr<v1::PlanningService::Stub> stub, const Connection& server,
                            const v1::StreamSetpointsRequest& request, const std::stop_token& stop)
-    : stub_(std::move(stub)), address_(std::move(address)), request_(request), stop_(stop) {
+    : stub_(std::move(stub)), server_(server), request_(request), stop_(stop) {
   open();
 }
 
@@ -38,7 +38,7 @@ bool SetpointStream::Call::next(SetpointBatch& batch) {
     }
     const grpc::Status status = std::exchange(reader_, nullptr)->Finish();
     if (status.ok() || is_complete_) return false;
-    if (!can_go_on(status)) throw_error(status, address_);
+    if (!can_go_on(status)) throw_error(status, server_.address);
     open();
   }
   return false;
@@ -47,7 +47,7 @@ bool SetpointStream::Call::next(SetpointBatch& batch) {
 // A server that went away in the middle: whoever is there now gives the same setpoints. gRPC itself tries again what
 // has not been answered at all (channel.h). The pace of a machine is not taken up: it counts from the call's time.
 bool SetpointStream::Call::can_go_on(const grpc::Status& status) {
-  return is_lost(status) && !stop_.stop_requested() && has_answered_ && !request_.has_lead_s();
+  return server_.tries_again && is_lost(status) && !stop_.stop_requested() && has_answered_ && !request_.has_lead_s();
 }
 
 SetpointStream::SetpointStream(std::unique_ptr<Call> call) : call_(std::move(call)) {}

@@ -59,7 +59,8 @@ class SetpointStream {
 
   // Waits for the next batch and puts it into `batch`, reusing its memory. False when the stream has ended after its
   // last batch. Where the server goes away meanwhile it goes on from the next setpoint with whichever server is there,
-  // unless it has a pace (lead_s). Throws Error if it broke off; a new stream can take it up at the next index.
+  // unless it has a pace (lead_s) or Connection::tries_again is false. Throws Error if it broke off; a new stream can
+  // take it up at the next index.
   bool next(SetpointBatch& batch);
 
  private:
