@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "client/sdk/channel.h"
 #include "client/sdk/error.h"
 #include "client/sdk/no_connection.h"
 #include "client/sdk/status_error.h"
@@ -53,12 +54,14 @@ void ServerLink::set_deadline(grpc::ClientContext& context) const {
   if (!server_.address.empty()) context.set_deadline(Clock::now() + server_.patience);
 }
 
-// What gRPC says about a connection that failed. It does so to calls only.
+// What gRPC says about a connection that failed. It does so to calls only, and at once to those that are not repeated.
 std::string ServerLink::reason() const {
+  Connection once = server_;
+  once.tries_again = false;
   grpc::ClientContext context;
   context.set_deadline(Clock::now() + kLookForReason);
   v1::Plan plan;
-  return v1::PlanningService::NewStub(channel_)->GetPlan(&context, {}, &plan).error_message();
+  return v1::PlanningService::NewStub(open_channel(once))->GetPlan(&context, {}, &plan).error_message();
 }
 
 }  // namespace kcs::client
