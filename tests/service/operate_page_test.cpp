@@ -88,6 +88,14 @@ TEST(OperatePage, ExampleNamesEverySettingThatKcsdKnows) {
   }
 }
 
+TEST(OperatePage, SettingsOfComposeAndKubernetesAreThoseThatKcsdKnows) {
+  for (const std::string file : {"compose/kcsd.toml", "kubernetes/kcsd.toml"}) {
+    const Config config = load_config(KCS_SOURCE "/deploy/" + file);
+    EXPECT_EQ(config.server.listen, "0.0.0.0:50551") << file;  // the image's ports
+    EXPECT_EQ(config.server.observe.http_listen, "0.0.0.0:50552") << file;
+  }
+}
+
 TEST(OperatePage, NamesEveryFigureThatKcsdShows) {
   ServerOptions options;
   options.observe.http_listen = "127.0.0.1:0";
