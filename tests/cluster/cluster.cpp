@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
+#include "tests/cluster/balancer_file.h"
 #include "tests/system/free_port.h"
 
 namespace kcs::test {
@@ -22,18 +22,10 @@ namespace fs = std::filesystem;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{60};
-constexpr const char* kHaproxy = "/usr/sbin/haproxy";
 
 std::string loopback() { return fmt::format("127.0.0.1:{}", free_port()); }
 
 std::string port_of(const std::string& address) { return address.substr(address.rfind(':') + 1); }
-
-// Where that is not found the shipped file has changed, and what it says now would not be what is tried here.
-void replace(std::string& text, const std::string& from, const std::string& to) {
-  std::size_t at = text.find(from);
-  if (at == std::string::npos) throw std::runtime_error("haproxy.cfg has no \"" + from + "\"");
-  for (; at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
-}
 
 }  // namespace
 
@@ -56,9 +48,7 @@ Cluster::Cluster(std::size_t places)
 
 // The shipped one, with the addresses of these servers instead of names of containers.
 fs::path Cluster::write_balancer() const {
-  std::ostringstream shipped;
-  shipped << std::ifstream(KCS_SOURCE "/deploy/compose/haproxy.cfg").rdbuf();
-  std::string text = shipped.str(), servers;
+  std::string text = shipped_balancer("compose"), servers;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     servers += fmt::format("  server kcsd{} {} port {}\n", i, places_[i].address, port_of(places_[i].http_address));
   }
