@@ -25,11 +25,13 @@ std::string jitter_in(const std::string& log) {
 bool run_for(std::chrono::seconds time) {
   const Program program = dense_program();
   Scene scene(simulated_drives(), ProgramCursor(program, kPiece));
+  const double begin = scene.drives().now();
   for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;) {
     scene.go_on();
     scene.run_to_end();
   }
   const std::uint64_t underruns = scene.starvations();
+  const double server_share = scene.service().cpu_seconds() / (scene.drives().now() - begin);
   scene.finish();
   const Commands commands = scene.drives().record();
   const Verdict verdict = judge(commands, scene.runs(), machine_limits(), kPeriod);
@@ -38,6 +40,7 @@ bool run_for(std::chrono::seconds time) {
              figures.stops);
   fmt::print("largest share of a limit {:.6f}, farthest from the planned curve {:.1e} mm: {}\n", verdict.largest_share,
              verdict.farthest, verdict.fault.empty() ? "good" : verdict.fault);
+  fmt::print("the server took {:.1f} % of a processor\n", 100 * server_share);
   fmt::print("{}\n", jitter_in(scene.log()));
   return verdict.fault.empty() && underruns == 0 && figures.stops == scene.runs().size();
 }

@@ -24,6 +24,8 @@ class OneServer : public Service {
 
   void pause(bool paused) override { server_->process().send_signal(paused ? SIGSTOP : SIGCONT); }
 
+  double cpu_seconds() const override { return server_->cpu_seconds(); }
+
  private:
   void start() {
     server_ = std::make_unique<test::KcsdProcess>(std::vector<std::string>{

@@ -30,6 +30,8 @@ class Replicas : public Service {
     cluster_.process(paused_).send_signal(paused ? SIGSTOP : SIGCONT);
   }
 
+  double cpu_seconds() const override { return cluster_.cpu_seconds(); }
+
  private:
   // While the machine is attached nowhere, the first one will do.
   std::size_t machines_place() const { return cluster_.place_of("machines/bench").value_or(0); }

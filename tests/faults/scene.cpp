@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{60}, kLongestRun{600};
-constexpr milliseconds kLookAgain{5};
+constexpr milliseconds kLookAgain{5}, kSeldom{200};  // the latter takes nothing of a server that is measured
 constexpr std::chrono::duration<int, std::milli> kReconnect{100};
 
 struct Call : grpc::ClientContext {
@@ -153,12 +153,12 @@ void Scene::set_override(double percent) {
 }
 
 void Scene::wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what,
-                       std::chrono::seconds patience) {
+                       std::chrono::seconds patience, milliseconds look_again) {
   v1::Run seen;
   for (const auto end = steady_clock::now() + patience; steady_clock::now() < end;) {
     seen = run();
     if (is_so(seen)) return;
-    std::this_thread::sleep_for(kLookAgain);
+    std::this_thread::sleep_for(look_again);
   }
   throw std::runtime_error(fmt::format("the run {}: {}\n{}", what, seen.ShortDebugString(), gateway_->errors()));
 }
@@ -195,7 +195,7 @@ void Scene::run_to_end() {
         if (is_attached(run) && run.state() == v1::RUN_STATE_HELD) resume();
         return is_over(run);
       },
-      "does not come to its end", kLongestRun);
+      "does not come to its end", kLongestRun, kSeldom);
   note_end(run());
 }
 

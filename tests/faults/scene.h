@@ -61,7 +61,8 @@ class Scene {
   motion::Vector machine_position();
   void note_end(const v1::Run& run);
   void resume();
-  void wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what, std::chrono::seconds patience);
+  void wait_until(const std::function<bool(const v1::Run&)>& is_so, const char* what, std::chrono::seconds patience,
+                  std::chrono::milliseconds look_again = std::chrono::milliseconds(5));
 
   std::unique_ptr<Drives> drives_;
   ProgramCursor cursor_;

@@ -18,6 +18,8 @@ class Service {
   virtual void kill_and_restart(std::chrono::milliseconds down) = 0;
   // Whether that kcsd stands still.
   virtual void pause(bool paused) = 0;
+  // What all kcsd have taken of the processors since they were started, s.
+  virtual double cpu_seconds() const = 0;
 };
 
 std::unique_ptr<Service> one_server();

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -25,8 +26,20 @@ constexpr std::chrono::seconds kTime{6};
 constexpr int kSegments = 1000;
 constexpr double kStreamPeriod = 1e-4;  // s
 
-// A zigzag with corners of all angles, another one for each seed.
-client::PointPath path(std::uint64_t seed) {
+// Another one for each seed: a curve in chords of 0.2 mm, as CAM programs have them.
+client::PointPath curve(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const double stretch = std::uniform_real_distribution(0.5, 2.0)(random);
+  client::PointPath path;
+  for (int i = 0; i <= kSegments; ++i) {
+    const double angle = 0.01 * i;
+    path.points_mm.insert(path.points_mm.end(), {20 * std::cos(angle), 20 * stretch * std::sin(1.5 * angle)});
+  }
+  return path;
+}
+
+// Likewise: corners of all angles, so near to each other that they overlap, the most that there is to plan.
+client::PointPath corners(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> step(-5, 5);
   client::PointPath path;
@@ -79,19 +92,23 @@ Rate measure(const test::Cluster& cluster,
 void measure_replicas(std::size_t count) {
   test::Cluster cluster(count);
   for (std::size_t place = 0; place < count; ++place) cluster.start(place);
-  const Rate plans = measure(cluster, [&](Planner& planner, std::uint64_t round) -> std::uint64_t {
-    planner.plan_points(path(round), options());
-    return 1;
-  });
-  const std::string plan = Planner(cluster.address()).plan_points(path(1), options()).name;
+  const auto plans_of = [&](client::PointPath path_of(std::uint64_t)) {
+    return measure(cluster, [&](Planner& planner, std::uint64_t round) -> std::uint64_t {
+      planner.plan_points(path_of(round), options());
+      return 1;
+    });
+  };
+  const Rate curves = plans_of(curve), zigzags = plans_of(corners);
+  const std::string plan = Planner(cluster.address()).plan_points(curve(1), options()).name;
   const Rate setpoints = measure(cluster, [&](Planner& planner, std::uint64_t) {
     client::SetpointStream stream = planner.stream_setpoints(plan, {.period_s = kStreamPeriod});
     std::uint64_t read = 0;
     for (client::SetpointBatch batch; stream.next(batch);) read += batch.size();
     return read;
   });
-  fmt::print("{:>8}{:>12.0f}{:>12.0f}{:>18.1f}{:>16.1f}{:>18.0f}\n", count, plans.per_second,
-             plans.per_second * kSegments, 1000 * plans.processor_share / plans.per_second, setpoints.per_second / 1e6,
+  fmt::print("{:>8}{:>12.1f}{:>16.1f}{:>12.1f}{:>16.1f}{:>16.1f}{:>18.0f}\n", count, curves.per_second,
+             1000 * curves.processor_share / curves.per_second, zigzags.per_second,
+             1000 * zigzags.processor_share / zigzags.per_second, setpoints.per_second / 1e6,
              1e9 * setpoints.processor_share / setpoints.per_second);
   std::fflush(stdout);
 }
@@ -103,8 +120,8 @@ int main() {
   try {
     fmt::print("{} clients, plans of {} segments, {} processors for all of it\n", kcs::bench::kClients,
                kcs::bench::kSegments, std::thread::hardware_concurrency());
-    fmt::print("{:>8}{:>12}{:>12}{:>18}{:>16}{:>18}\n", "servers", "plans/s", "segments/s", "kcsd ms/plan",
-               "M setpoints/s", "kcsd ns/setpoint");
+    fmt::print("{:>8}{:>12}{:>16}{:>12}{:>16}{:>16}{:>18}\n", "servers", "curves/s", "kcsd ms each", "corners/s",
+               "kcsd ms each", "M setpoints/s", "kcsd ns each");
     for (const std::size_t count : {1, 2, 3}) kcs::bench::measure_replicas(count);
     return 0;
   } catch (const std::exception& failure) {
