@@ -33,6 +33,10 @@ std::string refusal_of_g(int tenths) {
       return "cutter compensation is not supported: kcs does not know the tool's radius. Let the CAM program write the "
              "path of the tool's centre (compensation in the computer, not in the control); if it has, remove the "
              "word.";
+    case code(68):
+    case code(69):
+      return "Fanuc's turned coordinates are not supported. To turn a work offset write G10 L2 P1 R45 (degrees); where "
+             "nothing is turned remove the word.";
     case code(70):
     case code(71):
     case code(71, 1):

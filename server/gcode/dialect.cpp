@@ -23,7 +23,7 @@ struct Mark {
   std::string_view hint;
 };
 
-constexpr std::array<Mark, 44> kMarks{{
+constexpr std::array<Mark, 47> kMarks{{
     {" BEGINPGM", kHeidenhain}, {" ENDPGM", kHeidenhain}, {"TOOLCALL", kHeidenhain},
     {"TOOLDEF", kHeidenhain},   {"CYCLDEF", kHeidenhain}, {"CYCLCALL", kHeidenhain},
     {"FMAX", kHeidenhain},      {"BLKFORM", kHeidenhain}, {" CALLLBL", kHeidenhain},
@@ -38,7 +38,8 @@ constexpr std::array<Mark, 44> kMarks{{
     {"SUPA", kSiemens},         {"WORKPIECE(", kSiemens}, {"CR=", kSiemens},
     {"G65P", kFanuc},           {"M98", kFanuc},          {"M99", kFanuc},
     {"GOTO", kFanuc},           {"]DO", kFanuc},          {"]THEN", kFanuc},
-    {"G05.1Q", kFanuc},         {"G5.1Q", kFanuc},
+    {"G05.1Q", kFanuc},         {"G5.1Q", kFanuc},        {" FOR", kSiemens},
+    {" ENDFOR", kSiemens},      {" ENDIF", kSiemens},
 }};
 
 // Fanuc computes without brackets: #1=#2+1.

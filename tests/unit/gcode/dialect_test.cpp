@@ -24,9 +24,9 @@ TEST(Dialect, OfHeidenhainIsNamed) {
 }
 
 TEST(Dialect, OfSiemensIsNamed) {
-  for (const char* line :
-       {"CYCLE81(10, 0, 2, -5)", "N10 MSG(\"roughing\")", "G0 X=R1", "R1=5", "TRANS X10 Y5", "G64 CONTINUOUS",
-        "G2 X10 Y0 CR=5 F100", "IF R1>5 GOTOF END", "MCALL CYCLE83(1)", "SUPA G0 Z0", "DEF REAL DEPTH"}) {
+  for (const char* line : {"CYCLE81(10, 0, 2, -5)", "N10 MSG(\"roughing\")", "G0 X=R1", "R1=5", "TRANS X10 Y5",
+                           "G64 CONTINUOUS", "G2 X10 Y0 CR=5 F100", "IF R1>5 GOTOF END", "MCALL CYCLE83(1)",
+                           "SUPA G0 Z0", "DEF REAL DEPTH", "FOR R1=1 TO 5", "ENDFOR", "ENDIF"}) {
     expect_hint(line, "Siemens");
   }
 }
