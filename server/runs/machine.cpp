@@ -177,6 +177,7 @@ void Machine::attach(const MachineReport& first) {
 
 void Machine::drop_run() {
   const std::lock_guard lock(mutex_);
+  if (run_ && !is_over(run_->state)) return;  // begun since it attached: the order to drop would hit that one
   orders_.emplace_back(StopOrder{.abort = true});
   changed_.notify_all();
 }
