@@ -79,7 +79,8 @@ class Machine {
   void require_ready_for(const jobs::KeptPlan& plan) const;
   // Begins it, or goes on with it where the machine is, if it has said that it is on it.
   void begin(Run run, PlanPointer plan);
-  // The machine is on a run that is over, or that nobody knows: it is to forget it.
+  // The machine attached with a run that is over, or that nobody knows: it is to forget it. Nothing if another one has
+  // begun since.
   void drop_run();
   // Each returns the run as it is then; throws NotNow unless the machine is on this run and it can be done.
   Run hold(const std::string& run);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -14,6 +13,7 @@
 
 #include "client/sdk/error.h"
 #include "client/sdk/planner.h"
+#include "tests/cluster/jobs.h"
 
 namespace kcs::test {
 namespace {
@@ -22,30 +22,6 @@ using client::Planner;
 using std::chrono::milliseconds;
 
 constexpr int kClients = 4;
-
-client::PointPath random_path(std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> step(-10, 10);
-  client::PointPath path;
-  double x = 0, y = 0;
-  for (int i = 0; i < 200; ++i) {
-    path.points_mm.insert(path.points_mm.end(), {x, y});
-    x += step(random);
-    y += step(random);
-  }
-  return path;
-}
-
-client::PlanOptions options() {
-  client::PlanOptions options;
-  options.machine.axes = 2;
-  options.machine.velocity_mm_s = {500, 500};
-  options.machine.acceleration_mm_s2 = {2500, 2500};
-  options.machine.jerk_mm_s3 = {2e5, 2e5};
-  options.feed_mm_s = 100;
-  options.tolerance_mm = 0.02;
-  return options;
-}
 
 // What clients were told, and what must not be.
 class Ledger {
@@ -106,7 +82,7 @@ void work(const std::string& address, std::uint64_t seed, Ledger& ledger, const 
   std::mt19937_64 random(seed);
   while (!stop.stop_requested()) {
     try {
-      ledger.acknowledge(planner.plan_points(random_path(random()), options()));
+      ledger.acknowledge(planner.plan_points(corners(random(), 200, 10), job_options()));
       const std::string plan = ledger.any(random());
       ledger.streamed(plan, digest_of(planner, plan, milliseconds(20)));
     } catch (const client::Error& error) {

@@ -15,6 +15,7 @@
 
 #include "client/sdk/planner.h"
 #include "tests/cluster/cluster.h"
+#include "tests/cluster/jobs.h"
 
 namespace kcs::bench {
 namespace {
@@ -38,30 +39,8 @@ client::PointPath curve(std::uint64_t seed) {
   return path;
 }
 
-// Likewise: corners of all angles, so near to each other that they overlap, the most that there is to plan.
-client::PointPath corners(std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> step(-5, 5);
-  client::PointPath path;
-  double x = 0, y = 0;
-  for (int i = 0; i <= kSegments; ++i) {
-    path.points_mm.insert(path.points_mm.end(), {x, y});
-    x += step(random);
-    y += step(random);
-  }
-  return path;
-}
-
-client::PlanOptions options() {
-  client::PlanOptions options;
-  options.machine.axes = 2;
-  options.machine.velocity_mm_s = {500, 500};
-  options.machine.acceleration_mm_s2 = {2500, 2500};
-  options.machine.jerk_mm_s3 = {2e5, 2e5};
-  options.feed_mm_s = 100;
-  options.tolerance_mm = 0.02;
-  return options;
-}
+// So near to each other that they overlap, the most that there is to plan.
+client::PointPath near_corners(std::uint64_t seed) { return test::corners(seed, kSegments, 5); }
 
 struct Rate {
   double per_second;       // of what was done
@@ -94,12 +73,12 @@ void measure_replicas(std::size_t count) {
   for (std::size_t place = 0; place < count; ++place) cluster.start(place);
   const auto plans_of = [&](client::PointPath path_of(std::uint64_t)) {
     return measure(cluster, [&](Planner& planner, std::uint64_t round) -> std::uint64_t {
-      planner.plan_points(path_of(round), options());
+      planner.plan_points(path_of(round), test::job_options());
       return 1;
     });
   };
-  const Rate curves = plans_of(curve), zigzags = plans_of(corners);
-  const std::string plan = Planner(cluster.address()).plan_points(curve(1), options()).name;
+  const Rate curves = plans_of(curve), zigzags = plans_of(near_corners);
+  const std::string plan = Planner(cluster.address()).plan_points(curve(1), test::job_options()).name;
   const Rate setpoints = measure(cluster, [&](Planner& planner, std::uint64_t) {
     client::SetpointStream stream = planner.stream_setpoints(plan, {.period_s = kStreamPeriod});
     std::uint64_t read = 0;
