@@ -85,6 +85,9 @@ void Machine::follow(const MachineReport& report) {
     case MachineState::kHeld:
     case MachineState::kReady:
       if (run_->abort_asked) return end_run(RunState::kAborted, "");
+      // Ready for another run: it cannot begin this one, or go on with it.
+      if (report.state == MachineState::kReady && !report.fault.empty())
+        return end_run(RunState::kFailed, report.fault);
       if (run_->state == RunState::kWaiting && !has_refused_to_begin(report)) break;  // it has not begun yet
       run_->state = RunState::kHeld;
       run_->reason = report.fault;

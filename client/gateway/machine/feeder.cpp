@@ -80,7 +80,7 @@ std::optional<std::string> Feeder::find_obstacle(const v1::Run& run) const {
     return fmt::format("\"{}\" is no run of {}", run.name(), options_.machine);
   }
   if (!is_on(player_report_)) return "the drives are off, or in fault; switch the machine on";
-  if (moves(player_report_) || stop_is_under_way()) return "the machine moves";
+  if (moves(player_report_)) return "the machine moves";
   if (run_number(run.name(), options_.machine) == player_report_.run) {
     return "the machine has played a run of that number already; a new one needs a new number";
   }

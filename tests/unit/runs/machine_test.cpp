@@ -1,4 +1,4 @@
-// What a machine is told when its gateway attaches while something else happens.
+// What a machine is told when its gateway attaches while something else happens, and what its reports mean.
 #include "server/runs/machine.h"
 
 #include <gtest/gtest.h>
@@ -54,6 +54,16 @@ TEST_F(MachineTest, DropsNotTheRunThatBeganMeanwhile) {
   machine_.begin({.name = "machines/mill/runs/2", .plan = "plans/x"}, make_plan());
   machine_.drop_run();
   EXPECT_FALSE(is_told_to_drop_its_run(machine_));
+}
+
+TEST_F(MachineTest, FailsARunThatItsGatewayCannotBegin) {
+  machine_.begin({.name = "machines/mill/runs/2", .plan = "plans/x"}, make_plan());
+  machine_.report({.state = MachineState::kReady,
+                   .run = "machines/mill/runs/2",
+                   .where = {.ends = {BatchEnd{}}},
+                   .fault = "the machine moves"});
+  EXPECT_EQ(machine_.run()->state, RunState::kFailed);
+  EXPECT_EQ(machine_.run()->reason, "the machine moves");
 }
 
 }  // namespace

@@ -130,6 +130,14 @@ TEST_F(FeederTest, AbortEndsTheRunAtRestOnThePath) {
   EXPECT_EQ(find_violation(bench_.commands, test_profile(), bench_.commands.back().norm()), "");
 }
 
+// The server has it forget a run that is over, and somebody asks for the next one.
+TEST_F(FeederTest, StartThatFollowsAnAbortAtOnceBegins) {
+  deliver({command(v1::MACHINE_COMMAND_ABORT)});
+  play_to_the_end();
+  EXPECT_EQ(report().fault(), "");
+  EXPECT_EQ(violation(), "");
+}
+
 TEST_F(FeederTest, StarvationIsTold) {
   play(400);
   bench_.tick(2000);
