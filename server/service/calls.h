@@ -21,7 +21,8 @@ class Calls {
   // Keeps references to both.
   Calls(const AccessControl& access, const Observation& observation) : access_(access), observation_(observation) {}
 
-  // Refuses every call from now on; those that run go on.
+  // Refuses calls from now on, but for those that see to machines in motion: these stay attached for a while, and must
+  // be stopped here. Calls that run go on.
   void close() { closed_ = true; }
   bool closed() const { return closed_; }
   // Ends the calls that run, with UNAVAILABLE: those that wait, and streams when what they are sending is taken.

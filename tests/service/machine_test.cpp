@@ -342,6 +342,25 @@ TEST_F(MachineRunsTest, AreAllThatAStoppingServerWaitsForOfAMachine) {
   stopping.join();
 }
 
+TEST_F(MachineRunsTest, AreHeldAndAbortedWhileTheirServerStops) {
+  const std::string plan = make_plan();
+  TestGateway gateway(machine_, server_->channel());
+  begin(plan);
+  ASSERT_TRUE(gateway.play());
+  std::thread stopping([&] { server_->server().stop(kDeadline); });
+  EXPECT_TRUE(eventually([&] { return run(plan).status.error_code() == grpc::StatusCode::UNAVAILABLE; }));
+  EXPECT_TRUE(override_feed(50).status.ok());
+  const grpc::Status held = hold().status;
+  EXPECT_TRUE(held.ok()) << held.error_message();
+  while (gateway.play()) {
+  }
+  expect_state(v1::RUN_STATE_HELD);
+  const grpc::Status aborted = abort().status;
+  EXPECT_TRUE(aborted.ok()) << aborted.error_message();
+  EXPECT_EQ(gateway.finish().error_code(), grpc::StatusCode::UNAVAILABLE) << "it would have waited for the whole grace";
+  stopping.join();
+}
+
 TEST_F(MachineRunsTest, AreWatchedToTheirEnd) {
   const std::string plan = make_plan();
   TestGateway gateway(machine_, server_->channel());
