@@ -71,6 +71,10 @@ void pause_server(Scene& scene, Chance& chance) {
 
 void kill_server(Scene& scene, Chance& chance) { scene.service().kill_and_restart(chance.time(0, 500)); }
 
+void drain_server(Scene& scene, Chance& chance) { scene.service().drain_and_restart(chance.time(0, 500)); }
+
+void exchange_another_server(Scene& scene, Chance&) { scene.service().exchange_another(); }
+
 void kill_gateway(Scene& scene, Chance& chance) { scene.restart_gateway(chance.time(0, 500)); }
 
 void repeat_batch(Scene& scene, Chance&) { scene.scrambler().play({.kind = Trick::kRepeat}); }
@@ -103,7 +107,10 @@ std::vector<Fault> all_faults() {
           {.name = "byte corrupted", .happen = corrupt_byte},
           {.name = "server slow", .happen = pause_server},
           {.name = "server kill -9", .happen = kill_server},
+          {.name = "server drained", .happen = drain_server},
           {.name = "replica kill -9", .happen = kill_server, .replicas = true},
+          {.name = "replica drained", .happen = drain_server, .replicas = true},
+          {.name = "replica added", .happen = exchange_another_server, .replicas = true},
           {.name = "batch repeated", .happen = repeat_batch, .scrambles = true},
           {.name = "batches reordered", .happen = reorder_batches, .scrambles = true},
           {.name = "batch lost", .happen = lose_batch, .scrambles = true},

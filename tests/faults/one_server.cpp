@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <signal.h>
 
+#include <stdexcept>
 #include <thread>
 
 #include "tests/faults/service.h"
@@ -16,17 +18,29 @@ class OneServer : public Service {
   const std::string& address() const override { return listen_; }
 
   void kill_and_restart(std::chrono::milliseconds down) override {
-    server_->process().send_signal(SIGKILL);
-    server_->process().wait();
+    end(SIGKILL);
     std::this_thread::sleep_for(down);
     start();
   }
+
+  void drain_and_restart(std::chrono::milliseconds down) override {
+    if (const int code = end(SIGTERM); code != 0) throw std::runtime_error(fmt::format("kcsd ended with {}", code));
+    std::this_thread::sleep_for(down);
+    start();
+  }
+
+  void exchange_another() override { throw std::logic_error("there is no other server"); }
 
   void pause(bool paused) override { server_->process().send_signal(paused ? SIGSTOP : SIGCONT); }
 
   double cpu_seconds() const override { return server_->cpu_seconds(); }
 
  private:
+  int end(int signal) {
+    server_->process().send_signal(signal);
+    return server_->process().wait();
+  }
+
   void start() {
     server_ = std::make_unique<test::KcsdProcess>(std::vector<std::string>{
         KCSD, "--listen", listen_, "--database", "sqlite:" + (folder_.path() / "plans.db").string()});

@@ -16,6 +16,11 @@ class Service {
   virtual const std::string& address() const = 0;
   // kill -9 of the kcsd that the machine "bench" is attached to, and a new one with the same plans and runs.
   virtual void kill_and_restart(std::chrono::milliseconds down) = 0;
+  // The same by SIGTERM. Throws std::runtime_error if that kcsd does not end with code 0.
+  virtual void drain_and_restart(std::chrono::milliseconds down) = 0;
+  // Of several: one more is started, and then one drained that the machine is not attached to. Throws
+  // std::runtime_error as above, and if the machine goes to another one.
+  virtual void exchange_another() = 0;
   // Whether that kcsd stands still.
   virtual void pause(bool paused) = 0;
   // What all kcsd have taken of the processors since they were started, s.
