@@ -14,6 +14,10 @@ namespace {
 // it is only stretched.
 constexpr int kSearchingCoarsely = 18, kSearching = 26, kFinishing = 80;
 constexpr double kCoarser = 2;
+// Searching that has changed the duration by no more than this share in so many rounds, one after the other, goes on
+// with the shorter steps or, if it did, with finishing.
+constexpr double kSteady = 7e-4;
+constexpr int kSteadyRounds = 3;
 // In so many rounds the motion is too far from its end to look at it closely.
 constexpr int kRough = 9;
 // Motions of fewer points are searched with their own steps only.
@@ -104,7 +108,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   shares_.begin(path_, range_.before, stop_);
   change_step(spline_.ways.size() < kFewestToCoarsen ? step_ : kCoarser * step_);
   const double longest = kMostGrowth * spline_.step * static_cast<double>(spline_.ways.size());
-  int settled = kSettling;
+  int settled = kSettling, steady = 0;
   for (int round = 0; round < kSearching + kFinishing; ++round) {
     if (round == kSearchingCoarsely && spline_.step > step_) {
       change_step(step_);
@@ -120,7 +124,11 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     shares_.measure(path_, limits_, spline_, legs_, mode_.finishing || (spline_.step > step_ && round >= kRough));
     if (mode_.finishing && accept()) return !stands(draft.ways);
     reweigh(shares_, mode_, hold_time_ / spline_.step, weights_);
-    if (round >= settled) retime();
+    if (round < settled) continue;
+    steady = retime() < kSteady ? steady + 1 : 0;
+    if (steady < kSteadyRounds || mode_.finishing) continue;
+    round = (round < kSearchingCoarsely ? kSearchingCoarsely : kSearching) - 1;
+    steady = 0;
   }
   return false;
 }
@@ -244,7 +252,8 @@ void SmoothMotion::slow_down_evenly() {
   speeds_.exit /= slower;
 }
 
-void SmoothMotion::retime() {
+// Returns the change of the duration, as a share of it.
+double SmoothMotion::retime() {
   const bool whole_steps = mode_.crowded && mode_.finishing;
   paces_.set(shares_, mode_);
   if (whole_steps) paces_.round(least_step_);
@@ -257,6 +266,7 @@ void SmoothMotion::retime() {
   resample(std::max(kFewestSteps, static_cast<std::size_t>(whole)) + 1);
   slow_ends_down();
   hold_ends();
+  return std::abs(total / static_cast<double>(paces_.values().size()) - 1);
 }
 
 // The ends become as much slower as what follows them, for no corner may leave the tool the way to brake; while

@@ -73,7 +73,7 @@ class SmoothMotion {
   bool stands(const std::vector<double>& draft) const;
   void slow_down_evenly();
   bool is_crowded() const;
-  void retime();
+  double retime();
   void resample(std::size_t count);
   void slow_ends_down();
 
