@@ -2,7 +2,7 @@
 #   engine ARGUMENT...       Docker or Podman
 #   build_image ARGUMENT...  builds deploy/Dockerfile; the same sources give the same image
 #   run_image ARGUMENT...    runs a container: read-only, without rights, with the machine's own network
-#   base_image               prints the name of the Debian to build on, and has it ready
+#   base_image               prints the name of the Debian to build on, and has it ready; fails if there is none
 
 say() { printf 'image: %s\n' "$*" >&2; }
 
@@ -64,10 +64,10 @@ base_image() {
   else
     say "no image registry within reach: making Debian from this machine's package sources"
     ./run packages mmdebstrap
-    cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null |
+    { cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null || true; } |
       mmdebstrap --quiet --variant=minbase --include=ca-certificates bookworm build/image/debian.tar \
-        $(ls /etc/apt/sources.list.d/*.sources 2>/dev/null) - >&2
-    engine import build/image/debian.tar "$own" >/dev/null
+        $(ls /etc/apt/sources.list.d/*.sources 2>/dev/null) - >&2 || return
+    engine import build/image/debian.tar "$own" >/dev/null || return
     rm build/image/debian.tar
     echo "$own"
   fi
