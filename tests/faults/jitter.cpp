@@ -1,18 +1,24 @@
 // A long run on simulated drives, without a fault: how punctual it was, and whether motion was ever missing. ./run
 // jitter
 #include <fmt/format.h>
+#include <time.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
+#include <sstream>
+#include <stdexcept>
 
+#include "tests/faults/absences.h"
 #include "tests/faults/figures.h"
 #include "tests/faults/scene.h"
 
 namespace kcs::faults {
 namespace {
 
-constexpr double kPeriod = 0.001;  // s
-constexpr double kPiece = 2000;    // mm: a minute
+constexpr double kPeriod = 0.001;                  // s
+constexpr double kPiece = 2000;                    // mm: a minute
+constexpr std::chrono::milliseconds kWindow{500};  // twice what the machine has to play
 
 // The line of the gateway's log, from that word on.
 std::string jitter_in(const std::string& log) {
@@ -21,8 +27,32 @@ std::string jitter_in(const std::string& log) {
   return log.substr(begin, log.find('\n', begin) - begin);
 }
 
+std::chrono::system_clock::time_point time_of(const std::string& line) {
+  std::tm time{};
+  const char* rest = strptime(line.c_str(), "%Y-%m-%dT%H:%M:%S", &time);
+  if (rest == nullptr) throw std::runtime_error("the gateway's log has no time: " + line);
+  const int fraction = std::stoi(rest + 1);  // behind the point, ms
+  return std::chrono::system_clock::from_time_t(timegm(&time)) + std::chrono::milliseconds(fraction);
+}
+
+// When motion was missing, and how long the computer had been away in the time of a window before.
+void print_underruns(const std::string& log, const std::vector<Absence>& absences) {
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("left the stream") == std::string::npos) continue;
+    std::chrono::milliseconds away{0};
+    for (const Absence& absence : absences) {
+      const auto before = time_of(line) - absence.end;
+      if (before > -kWindow && before < kWindow) away += absence.length;
+    }
+    fmt::print("underrun at {}: within {} s of it the computer was away for {} ms\n", line.substr(0, line.find(' ')),
+               kWindow.count() / 1000.0, away.count());
+  }
+}
+
 // True if no motion was missing and all of it was good.
 bool run_for(std::chrono::seconds time) {
+  const AbsenceWatch watch;
   const Program program = dense_program();
   Scene scene(simulated_drives(), ProgramCursor(program, kPiece));
   const double begin = scene.drives().now();
@@ -42,6 +72,12 @@ bool run_for(std::chrono::seconds time) {
              verdict.farthest, verdict.fault.empty() ? "good" : verdict.fault);
   fmt::print("the server took {:.1f} % of a processor\n", 100 * server_share);
   fmt::print("{}\n", jitter_in(scene.log()));
+  const std::vector<Absence> absences = watch.absences();
+  std::chrono::milliseconds longest{0};
+  for (const Absence& absence : absences) longest = std::max(longest, absence.length);
+  fmt::print("the computer itself was away {} times for 20 ms or longer, {} ms at most\n", absences.size(),
+             longest.count());
+  print_underruns(scene.log(), absences);
   return verdict.fault.empty() && underruns == 0 && figures.stops == scene.runs().size();
 }
 
