@@ -28,6 +28,7 @@
 #include "server/service/plans.h"
 #include "server/service/socket_acceptor.h"
 #include "server/service/tls_credentials.h"
+#include "server/store/errors.h"
 #include "server/systemd/inherited_sockets.h"
 
 namespace kcs::service {
@@ -99,6 +100,15 @@ http::PlanPages::Options plan_pages_of(const ServerOptions& options) {
   return pages;
 }
 
+// For the first calls, which may come with the socket. If it cannot be opened now, the caretaker says why and tries
+// again.
+void try_open(Archive& archive) {
+  try {
+    archive.open();
+  } catch (const store::StoreError&) {
+  }
+}
+
 }  // namespace
 
 struct Server::Parts {
@@ -160,6 +170,7 @@ struct Server::Parts {
 Server::Server(const ServerOptions& options) {
   require_safe(options.security, options.listen);
   parts_ = std::make_unique<Parts>(options);
+  try_open(parts_->archive);
   if (options.observe.channelz) grpc::channelz::experimental::InitChannelzService();  // for builders made afterwards
   grpc::ServerBuilder builder;
   configure(builder, options).RegisterService(&parts_->service).RegisterService(&parts_->machine_service);

@@ -24,14 +24,14 @@ namespace kcs::test {
 namespace {
 
 // Asks for a plan that is not there: the status that a serving kcsd answers is NOT_FOUND.
-grpc::StatusCode ask(const std::string& address) {
+grpc::Status ask(const std::string& address) {
   const auto stub = v1::PlanningService::NewStub(new_channel(address));
   Call call;
   call.set_wait_for_ready(true);
   v1::GetPlanRequest request;
   request.set_name("plans/none");
   v1::Plan plan;
-  return stub->GetPlan(&call, request, &plan).error_code();
+  return stub->GetPlan(&call, request, &plan);
 }
 
 TEST(KcsdUnderSystemd, TellsWhenItIsReadyAliveAndStopping) {
@@ -84,7 +84,7 @@ TEST(KcsdUnderSystemd, ServesOnASocketThatItIsHanded) {
   const ListeningSocket socket;
   KcsdProcess kcsd(socket.command());
   EXPECT_EQ(kcsd.address(), socket.address());
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(socket.address()), grpc::StatusCode::NOT_FOUND);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(socket.address()).error_code(), grpc::StatusCode::NOT_FOUND);
   kcsd.process().send_signal(SIGTERM);
   EXPECT_EQ(kcsd.process().wait(), 0);
 }
@@ -94,15 +94,15 @@ TEST(KcsdUnderSystemd, ClientThatComesBetweenTwoServersWaitsForTheNext) {
   {
     KcsdProcess first(socket.command());
     EXPECT_EQ(first.address(), socket.address());
-    EXPECT_EQ(ask(socket.address()), grpc::StatusCode::NOT_FOUND);
+    EXPECT_EQ(ask(socket.address()).error_code(), grpc::StatusCode::NOT_FOUND);
     first.process().send_signal(SIGTERM);
     EXPECT_EQ(first.process().wait(), 0);
   }
-  grpc::StatusCode answer = grpc::StatusCode::UNKNOWN;
+  grpc::Status answer;
   std::thread client([&] { answer = ask(socket.address()); });
   const KcsdProcess second(socket.command());
   client.join();
-  EXPECT_EQ(answer, grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(answer.error_code(), grpc::StatusCode::NOT_FOUND) << answer.error_message();
 }
 
 TEST(KcsdUnderSystemd, SaysWhatIsMissingWithoutASocket) {
@@ -113,7 +113,7 @@ TEST(KcsdUnderSystemd, SaysWhatIsMissingWithoutASocket) {
 
 TEST(KcsdUnderMonitoring, ShowsItsFiguresAndItsState) {
   KcsdProcess kcsd({KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--http-listen", "127.0.0.1:0"});
-  EXPECT_EQ(ask(kcsd.address()), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(ask(kcsd.address()).error_code(), grpc::StatusCode::NOT_FOUND);
   httplib::Client client("http://" + http_address_of(kcsd.process()));
   client.set_read_timeout(kDeadline);
   for (const std::string path : {"/healthz", "/readyz"}) {
@@ -138,7 +138,7 @@ TEST(KcsdUnderMonitoring, PortInUseIsSaidPlainly) {
 TEST(KcsdLog, IsJsonLineByLineIfAskedFor) {
   KcsdProcess kcsd(
       {KCSD, "--database", "memory", "--listen", "127.0.0.1:0", "--log-format", "json", "--log-level", "debug"});
-  EXPECT_EQ(ask(kcsd.address()), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(ask(kcsd.address()).error_code(), grpc::StatusCode::NOT_FOUND);
   // What speaks no gRPC makes the library write lines of its own.
   httplib::Client("http://" + kcsd.address()).Get("/\"quoted\"");
   kcsd.process().send_signal(SIGTERM);
