@@ -10,7 +10,7 @@
 namespace kcs::planning {
 namespace {
 
-// Rounds in which time may be shortened as well, the first of them with longer steps, and then, at most, those in which
+// Rounds, at most: in which time may be shortened as well, the first of them with longer steps, and then those in which
 // it is only stretched.
 constexpr int kSearchingCoarsely = 18, kSearching = 26, kFinishing = 80;
 constexpr double kCoarser = 2;

@@ -35,18 +35,18 @@ std::chrono::system_clock::time_point time_of(const std::string& line) {
   return std::chrono::system_clock::from_time_t(timegm(&time)) + std::chrono::milliseconds(fraction);
 }
 
-// When motion was missing, and how long the computer had been away in the time of a window before.
-void print_underruns(const std::string& log, const std::vector<Absence>& absences) {
+// What went wrong, and how long the computer was away around that time.
+void print_warnings(const std::string& log, const std::vector<Absence>& absences) {
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {
-    if (line.find("left the stream") == std::string::npos) continue;
+    if (line.find(" warning ") == std::string::npos && line.find(" error ") == std::string::npos) continue;
     std::chrono::milliseconds away{0};
     for (const Absence& absence : absences) {
       const auto before = time_of(line) - absence.end;
       if (before > -kWindow && before < kWindow) away += absence.length;
     }
-    fmt::print("underrun at {}: within {} s of it the computer was away for {} ms\n", line.substr(0, line.find(' ')),
-               kWindow.count() / 1000.0, away.count());
+    fmt::print("{}\n  within {} s of that the computer was away for {} ms\n", line, kWindow.count() / 1000.0,
+               away.count());
   }
 }
 
@@ -77,7 +77,7 @@ bool run_for(std::chrono::seconds time) {
   for (const Absence& absence : absences) longest = std::max(longest, absence.length);
   fmt::print("the computer itself was away {} times for 20 ms or longer, {} ms at most\n", absences.size(),
              longest.count());
-  print_underruns(scene.log(), absences);
+  print_warnings(scene.log(), absences);
   return verdict.fault.empty() && underruns == 0 && figures.stops == scene.runs().size();
 }
 
