@@ -89,13 +89,22 @@ std::string PostgresServer::query(const std::string& database, const std::string
   return PQntuples(result.get()) > 0 ? PQgetvalue(result.get(), 0, 0) : "";
 }
 
-void PostgresServer::start() {
+void PostgresServer::launch() {
   process_ = std::make_unique<ChildProcess>(
       as_its_user({programs() / "postgres", "-D", folder() / "data", "-k", folder(), "-c", "listen_addresses=", "-c",
                    "shared_buffers=16MB", "-c", "max_connections=40"}));
+}
+
+void PostgresServer::start() {
+  launch();
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (PQping(connection("postgres").c_str()) != PQPING_OK) {
     if (std::chrono::steady_clock::now() > end) throw std::runtime_error("no answer: " + process_->errors());
+    // After kill(), a process of the last one may need a moment to go.
+    if (process_->errors().find("pre-existing shared memory") != std::string::npos) {
+      process_->wait();
+      launch();
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }

@@ -44,6 +44,7 @@ class PostgresServer {
   const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:
+  void launch();
   std::vector<std::string> as_its_user(std::vector<std::string> command) const;
   void run(const std::vector<std::string>& command) const;
   std::string connection(const std::string& database) const;
