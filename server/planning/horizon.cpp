@@ -42,7 +42,7 @@ void Horizon::see(const Leg& leg) {
   steps_ += leg.length / (leg.feed * step_of_time(tolerance, limits_));
   if (ahead_) return;
   const auto seen = static_cast<double>(legs_);
-  ahead_ = (steps_ >= share_ * kSettledSteps && seen >= share_ * kSettledLegs) || seen >= share_ * kMostLegs;
+  ahead_ = (steps_ >= share_ * settled_ * kSettledSteps && seen >= share_ * kSettledLegs) || seen >= share_ * kMostLegs;
   if (!ahead_) return;
   until_ = legs_ - 1;
   steps_ = way_ = 0;

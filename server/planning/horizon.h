@@ -12,8 +12,9 @@ namespace kcs::planning {
 // at beyond it. Looks at each leg once while the path arrives.
 class Horizon {
  public:
-  // share: of the usual distance, > 0.
-  explicit Horizon(const motion::AxisLimits& limits, double share = 1) : limits_(limits), share_(share) {}
+  // share: of the usual distances, > 0. settled: the share of that of the time that may be settled, > 0.
+  explicit Horizon(const motion::AxisLimits& limits, double share = 1, double settled = 1)
+      : limits_(limits), share_(share), settled_(settled) {}
 
   // Whether the path is known far enough: to the horizon, or to its end. Legs may have been added since the last call,
   // but none dropped.
@@ -29,7 +30,7 @@ class Horizon {
   bool beyond() const;
 
   motion::AxisLimits limits_;
-  double share_;
+  double share_, settled_;
   std::size_t legs_ = 0, until_ = 0;
   bool ahead_ = false;          // what may be settled has come; the rest is looked at
   double steps_ = 0, way_ = 0;  // steps of time; mm

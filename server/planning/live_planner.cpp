@@ -16,6 +16,8 @@ namespace {
 
 // Where no motion is found as far as the horizon, a nearer one is tried.
 constexpr double kNearer = 0.5;
+// Less is settled at first, for the machine waits for it.
+constexpr double kFirst = 0.5;
 
 InvalidInput invalid(const char* field, std::string description) {
   return InvalidInput({{field, std::move(description)}});
@@ -28,7 +30,7 @@ LivePlanner::LivePlanner(const PathEnds& ends, const PlanOptions& options, PlanR
       options_(options),
       receiver_(receiver),
       legs_(ends.start, options.limits),
-      horizon_(options.limits),
+      horizon_(options.limits, 1, kFirst),
       log_(receiver, summary_) {
   validate(options);
   validate(ends, options.limits.axes);
@@ -138,7 +140,7 @@ Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const
 // Settles the first part of what is in sight.
 void LivePlanner::settle_next() {
   if (!verifier_) begin();
-  Horizon nearer(options_.limits, kNearer);
+  Horizon nearer(options_.limits, kNearer, last_ ? 1 : kFirst);
   nearer.in_sight(legs_);
   std::unique_ptr<Section> apart;
   std::size_t until_apart = 0;
@@ -168,6 +170,7 @@ std::unique_ptr<Section> LivePlanner::plan(const Horizon& horizon, CornerStrateg
   PlanOptions options = options_;
   options.strategy = strategy;
   const bool last = at_end(horizon.legs()), alone = last && !last_;
+  options.hurried = !last_ && !last;
   return Section::plan(legs_.first(horizon.legs()), entry_, last ? ends_.end_speed : 0, alone, options);
 }
 

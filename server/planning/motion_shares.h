@@ -20,6 +20,9 @@ struct SearchMode {
   bool crowded = false;    // sharp corners follow each other within a few steps
   bool finishing = false;  // time is only stretched
   bool urgent = false;     // finishing has taken long
+  // Steps beside an end whose speed is given, over which time is stretched little: there a slower tool would have to
+  // brake at once.
+  double held_start = 0, held_end = 0;
 };
 
 // 1: all of it. Measured again and again while a motion is looked for, so cheaply: places at the points and, if

@@ -37,6 +37,9 @@ struct PlanOptions {
   // How to say that nobody wants the plan any more: planning then throws Stopped (stopped.h), within some milliseconds.
   // No part of what is asked for.
   std::stop_token stop;
+  // The machine waits for this part of the plan: what is found sooner and is nearly as fast will do. No part of what is
+  // asked for.
+  bool hurried = false;
 };
 
 }  // namespace kcs::planning

@@ -27,6 +27,15 @@ double share_at(const std::vector<double>& shares, std::size_t j, std::size_t ba
   return shares[std::min(std::max(j, back) - back, shares.size() - 1)];
 }
 
+// The share of a stretch that a step may take beside the ends.
+double freedom(std::size_t step, std::size_t steps, const SearchMode& mode) {
+  const auto from_start = static_cast<double>(step), from_end = static_cast<double>(steps - 1 - step);
+  double share = 1;
+  if (from_start < mode.held_start) share = square(from_start / mode.held_start);
+  if (from_end < mode.held_end) share = std::min(share, square(from_end / mode.held_end));
+  return share;
+}
+
 }  // namespace
 
 // A step that takes x times as long has 1/x of the speed, 1/x² of the acceleration and 1/x³ of the jerk: what they ask
@@ -47,7 +56,9 @@ void Paces::set(const MotionShares& shares, const SearchMode& mode) {
       const double away = std::max({shares.place()[j], shares.place()[j + 1], 1.0}) - 1;
       wish = std::max(wish, sixth_power(1 + kStretchAway * away));
     }
-    const double root = std::sqrt(std::min(std::max(wish, least), most));
+    wish = std::min(std::max(wish, least), most);
+    if (wish > 1) wish = 1 + (wish - 1) * freedom(j, steps, mode);
+    const double root = std::sqrt(wish);
     wishes_[j + 2] = cube_root(mode.urgent ? root : std::sqrt(root));
   }
   wishes_[0] = wishes_[1] = wishes_[2];

@@ -29,6 +29,10 @@ constexpr int kPatience = 5;
 constexpr int kSettling = 3, kSettlingAgain = 2;
 // A motion this near to its limits is slowed down evenly rather than searched on.
 constexpr double kNearlyKept = 1.01;
+// When finishing has taken so many rounds, a hurried motion may be slowed down by more, by this much for each of so
+// many rounds.
+constexpr int kFirmRounds = 8, kEasingRounds = 8;
+constexpr double kEasing = 0.005;
 // The place weight of the first and the last three points.
 constexpr double kHeld = 1e9;
 // Weights belong to places, and to times where the tool is slower than this, mm/s.
@@ -117,8 +121,10 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     const auto size = static_cast<double>(spline_.ways.size());
     if (spline_.step * size > longest) break;
     mode_.finishing = round >= kSearching;
+    find_held_steps();
     mode_.urgent = round >= kSearching + kPatience;
     const double late = std::clamp((round - kSearching) / kLate, 0.0, 1.0);
+    eased_ = kEasing * std::clamp(round - kSearching - kFirmRounds, 0, kEasingRounds);
     least_step_ = kLeastStep + late * (kLeastStepLate - kLeastStep);
     fit();
     shares_.measure(path_, limits_, spline_, legs_, mode_.finishing || (spline_.step > step_ && round >= kRough));
@@ -131,6 +137,13 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     steady = 0;
   }
   return false;
+}
+
+void SmoothMotion::find_held_steps() {
+  const double steps = hold_time_ / spline_.step;
+  const bool starts_in_motion = range_.exact && range_.at_most.entry > 0;
+  mode_.held_start = range_.before != nullptr || starts_in_motion ? steps : 0;
+  mode_.held_end = range_.exact && range_.at_most.exit > 0 ? steps : 0;
 }
 
 bool SmoothMotion::is_crowded() const {
@@ -222,11 +235,15 @@ void SmoothMotion::fit() {
 
 bool SmoothMotion::accept() {
   if (shares_.largest_place() > 1) return false;
-  // What goes on from another motion must keep its step, and what ends at certain speeds too.
-  const double allowed = range_.before != nullptr || range_.exact ? 1 - motion::kRoundingShare : kNearlyKept;
-  if (shares_.slower() > allowed || !shares_.verify_places(path_, limits_, spline_)) return false;
+  if (shares_.slower() > allowed() || !shares_.verify_places(path_, limits_, spline_)) return false;
   slow_down_evenly();
   return true;
+}
+
+// What goes on from another motion must keep its step, and what ends at certain speeds too.
+double SmoothMotion::allowed() const {
+  if (range_.before != nullptr || range_.exact) return 1 - motion::kRoundingShare;
+  return kNearlyKept + (range_.hurried ? eased_ : 0);
 }
 
 // Whether the motion keeps all limits because it hardly moves where the draft does: a search can end like that where it

@@ -27,6 +27,7 @@ struct MotionRange {
   double from = 0, to = 0;  // ways, mm
   EndSpeeds at_most;        // the greatest speeds there; what begins or ends at rest does so exactly
   bool exact = false;       // these are the speeds there
+  bool hurried = false;     // what is found sooner and is nearly as fast will do
   // The motion goes on from the last three points of this one, if there is one, whatever `from` and at_most.entry are.
   const TimeSpline* before = nullptr;
 };
@@ -70,9 +71,11 @@ class SmoothMotion {
   void hold_ends();
   void fit();
   bool accept();
+  double allowed() const;
   bool stands(const std::vector<double>& draft) const;
   void slow_down_evenly();
   bool is_crowded() const;
+  void find_held_steps();
   double retime();
   void resample(std::size_t count);
   void slow_ends_down();
@@ -94,6 +97,7 @@ class SmoothMotion {
   std::array<double, 3> start_ways_ = {};
   SearchMode mode_;
   double least_step_ = 0;  // see kLeastStep
+  double eased_ = 0;       // see kEasing
   double missing_ = 0;     // steps that were asked for while finishing, and not given yet
   // Scratch, kept from round to round.
   std::vector<std::size_t> legs_;  // of the ways

@@ -8,6 +8,10 @@
 namespace kcs::planning {
 namespace {
 
+// A draft goes on from what was found with this share of its speed at least, or else so many points later.
+constexpr double kReached = 0.7;
+constexpr std::size_t kFarther = 8;
+
 template <class Values>
 Values tail(const Values& values, std::size_t from) {
   return Values(values.begin() + static_cast<std::ptrdiff_t>(from), values.end());
@@ -18,6 +22,7 @@ Values tail(const Values& values, std::size_t from) {
 Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& options, const EndSpeeds& at_most,
                  const BegunStretch* begun)
     : limits_(options.limits),
+      hurried_(options.hurried),
       stop_(options.stop),
       begun_(begun),
       path_(path, range, options),
@@ -45,6 +50,7 @@ void Stretch::search(const EndSpeeds& at_most, bool exact) {
                           .to = path_.length(),
                           .at_most = at_most,
                           .exact = exact,
+                          .hurried = hurried_,
                           .before = begun_ == nullptr ? nullptr : &settled};
   SmoothMotion motion(path_, limits_, step_, stop_);
   if (!motion.search(range, draft(range))) {
@@ -64,16 +70,28 @@ void Stretch::search(const EndSpeeds& at_most, bool exact) {
   spline_.ways.insert(spline_.ways.end(), found.ways.begin() + 3, found.ways.end());
 }
 
-// What was found before, as far as it did not brake yet for its own end, and a slow motion after it.
+// What was found before, as far as it did not brake yet for its own end, and a slow motion after it; or farther, until
+// the slow motion can be reached: what was found leads to rest.
 MotionDraft Stretch::draft(const MotionRange& range) const {
   if (begun_ == nullptr) return first_draft(path_, limits_, range, step_);
   MotionDraft draft{begun_->ways, begun_->weights};
   const double enough = (draft.ways.front() + draft.ways.back()) / 2;
   std::size_t kept = 3;
   while (kept < draft.ways.size() && draft.ways[kept] < std::min(enough, range.to)) ++kept;
-  const double speed = (draft.ways[kept - 1] - draft.ways[kept - 2]) / step_;
-  const MotionRange rest{.from = draft.ways[kept - 1], .to = range.to, .at_most = {speed, range.at_most.exit}};
-  const MotionDraft fresh = first_draft(path_, limits_, rest, step_);
+  const auto step_at_end = [&] { return draft.ways[kept - 1] - draft.ways[kept - 2]; };
+  const auto slow_motion = [&] {
+    const MotionRange rest{
+        .from = draft.ways[kept - 1], .to = range.to, .at_most = {step_at_end() / step_, range.at_most.exit}};
+    return first_draft(path_, limits_, rest, step_);
+  };
+  const auto can_reach = [&](const MotionDraft& next) {
+    return !next.ways.empty() && next.ways[1] - next.ways[0] >= kReached * step_at_end();
+  };
+  MotionDraft fresh = slow_motion();
+  while (!can_reach(fresh) && kept + kFarther <= draft.ways.size() && draft.ways[kept + kFarther - 1] < range.to) {
+    kept += kFarther;
+    fresh = slow_motion();
+  }
   if (fresh.ways.empty()) return {};
   const auto join = [&](auto& values, const auto& more) {
     values.resize(kept);

@@ -44,6 +44,7 @@ class Stretch {
   MotionDraft draft(const MotionRange& range) const;
 
   AxisLimits limits_;
+  bool hurried_;
   std::stop_token stop_;
   const BegunStretch* begun_;
   StretchPath path_;
