@@ -1,5 +1,6 @@
 #include "client/gateway/periodic_timer.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <ctime>
@@ -19,16 +20,19 @@ std::int64_t now() {
 
 double monotonic_s() { return static_cast<double>(now()) / static_cast<double>(kNanoseconds); }
 
-PeriodicTimer::PeriodicTimer(double period_s)
-    : period_(period_s * static_cast<double>(kNanoseconds)), start_(now()), deadline_(start_) {}
+PeriodicTimer::PeriodicTimer(double period_s) : period_(period_s * static_cast<double>(kNanoseconds)), start_(now()) {}
 
 std::int64_t PeriodicTimer::wait() {
   ++ticks_;
-  deadline_ = start_ + std::llround(static_cast<double>(ticks_) * period_ + shifted_);
-  const timespec wake_at = {.tv_sec = deadline_ / kNanoseconds, .tv_nsec = deadline_ % kNanoseconds};
+  const std::int64_t deadline = start_ + std::llround(elapsed_ns());
+  const timespec wake_at = {.tv_sec = deadline / kNanoseconds, .tv_nsec = deadline % kNanoseconds};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake_at, nullptr) == EINTR) {
   }
-  return now() - deadline_;
+  const std::int64_t late = now() - deadline;
+  const double missed = std::max(0.0, std::floor(static_cast<double>(late) / period_));
+  missed_ += static_cast<std::uint64_t>(missed);
+  start_ += std::llround(missed * period_);
+  return late;
 }
 
 }  // namespace kcs::gateway

@@ -97,6 +97,7 @@ ClockFigures run_by_the_clock(Run& run, double period) {
     const std::int64_t late = timer.wait();
     figures.lateness.record(late);
     if (static_cast<double>(late) > period * 1e9) ++figures.late_ticks;
+    figures.missed_periods = timer.missed();
   } while (run.tick());
   return figures;
 }

@@ -72,7 +72,7 @@ void add_clock(Table& table, const ClockFigures& clock) {
   table.row("Memory", "{}", clock.memory_locked ? "locked" : "not locked: that needs root or CAP_IPC_LOCK");
   table.row("Ticks late by", "p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} µs", clock.lateness.percentile_us(0.5),
             clock.lateness.percentile_us(0.99), clock.lateness.percentile_us(0.999), clock.lateness.max_us());
-  table.row("", "{} by more than a period", clock.late_ticks);
+  table.row("", "{} by more than a period; {} periods passed without one", clock.late_ticks, clock.missed_periods);
 }
 
 void add_buffer(Table& table, const PlaybackResult& result) {
@@ -136,6 +136,7 @@ std::string report_json(const client::Plan& plan, const PlaybackOptions& options
                            {"p99_9", clock->lateness.percentile_us(0.999)},
                            {"max", clock->lateness.max_us()}};
     json["late_ticks"] = clock->late_ticks;
+    json["missed_periods"] = clock->missed_periods;
     json["buffer_capacity_s"] = result.buffer_capacity_s;
     if (figures.buffer_min_s) json["buffer_min_s"] = *figures.buffer_min_s;
     if (figures.buffer_mean_s) json["buffer_mean_s"] = *figures.buffer_mean_s;

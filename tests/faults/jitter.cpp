@@ -40,13 +40,13 @@ void print_warnings(const std::string& log, const std::vector<Absence>& absences
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {
     if (line.find(" warning ") == std::string::npos && line.find(" error ") == std::string::npos) continue;
-    std::chrono::milliseconds away{0};
+    std::chrono::milliseconds away{0}, waited{0};
     for (const Absence& absence : absences) {
       const auto before = time_of(line) - absence.end;
-      if (before > -kWindow && before < kWindow) away += absence.length;
+      if (before > -kWindow && before < kWindow) (absence.of_the_computer ? away : waited) += absence.length;
     }
-    fmt::print("{}\n  within {} s of that the computer was away for {} ms\n", line, kWindow.count() / 1000.0,
-               away.count());
+    fmt::print("{}\n  within {} s of that the computer was away for {} ms, and ordinary threads waited for {} ms\n",
+               line, kWindow.count() / 1000.0, away.count(), waited.count());
   }
 }
 
@@ -73,10 +73,18 @@ bool run_for(std::chrono::seconds time) {
   fmt::print("the server took {:.1f} % of a processor\n", 100 * server_share);
   fmt::print("{}\n", jitter_in(scene.log()));
   const std::vector<Absence> absences = watch.absences();
-  std::chrono::milliseconds longest{0};
-  for (const Absence& absence : absences) longest = std::max(longest, absence.length);
-  fmt::print("the computer itself was away {} times for 20 ms or longer, {} ms at most\n", absences.size(),
-             longest.count());
+  for (const bool computer : {true, false}) {
+    std::size_t count = 0;
+    std::chrono::milliseconds longest{0};
+    for (const Absence& absence : absences) {
+      if (absence.of_the_computer != computer) continue;
+      ++count;
+      longest = std::max(longest, absence.length);
+    }
+    fmt::print("{} {} times for 20 ms or longer, {} ms at most\n",
+               computer ? "the computer itself was away" : "ordinary threads were kept waiting", count,
+               longest.count());
+  }
   print_warnings(scene.log(), absences);
   return verdict.fault.empty() && underruns == 0 && figures.stops == scene.runs().size();
 }

@@ -79,9 +79,10 @@ class SimulatedSide {
     const auto late = [&clock](double share) { return clock.lateness.percentile_us(share); };
     log.info(
         "jitter ticks={} p50_us={:.0f} p90_us={:.0f} p99_us={:.0f} p99_9_us={:.0f} p99_99_us={:.0f} max_us={:.0f} "
-        "late_ticks={} out_of_step_us={:.1f} fifo={} memory_locked={} unrecorded_ticks={}",
+        "late_ticks={} missed_periods={} out_of_step_us={:.1f} fifo={} memory_locked={} unrecorded_ticks={}",
         figures.ticks, late(0.5), late(0.9), late(0.99), late(0.999), late(0.9999), clock.lateness.max_us(),
-        clock.late_ticks, clock.out_of_step_us, clock.fifo, clock.memory_locked, machine_.untraced_ticks());
+        clock.late_ticks, clock.missed_periods, clock.out_of_step_us, clock.fifo, clock.memory_locked,
+        machine_.untraced_ticks());
   }
 
  private:

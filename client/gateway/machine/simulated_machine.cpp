@@ -46,6 +46,7 @@ void SimulatedMachine::run(const std::stop_token& stop) {
     const std::int64_t late = timer.wait();
     figures_.lateness.record(late);
     if (static_cast<double>(late) > period_ns) figures_.late_ticks = ++late_ticks_;
+    figures_.missed_periods = timer.missed();
     tick();
     const double ahead_ns = timer.elapsed_ns() * drives_clock_ - due_ns;
     figures_.out_of_step_us = std::max(figures_.out_of_step_us, std::abs(ahead_ns) / 1000);
