@@ -99,6 +99,28 @@ TEST(DensePath, DoesNotStutter) {
   for (std::size_t i = 60; i + 60 < result.corners.size(); ++i) EXPECT_GT(result.corners[i].speed, 95) << i;
 }
 
+// Where one section goes on from another, no search that finds nothing may show as a place where the tool brakes.
+TEST(DensePath, DoesNotBrakeWhereSectionsMeet) {
+  constexpr std::size_t kPass = 500, kPasses = 40, kTurning = 60;  // segments of a pass; of its ends, where it turns
+  constexpr double kWave = 2 * std::numbers::pi / 20;              // rad/mm
+  Toolpath relief;
+  for (std::size_t i = 0; i < kPasses * (kPass + 1); ++i) {
+    const std::size_t pass = i / (kPass + 1), along = i % (kPass + 1);
+    const double x = 0.2 * static_cast<double>(pass % 2 == 0 ? along : kPass - along);
+    const double y = 0.3 * static_cast<double>(pass);
+    const Vector end(x, y, 3 * std::sin(kWave * x) * std::cos(kWave * y));
+    if (i > 0) relief.segments.push_back({.end = end, .feed = kFeed, .tolerance = 0.05});
+  }
+  PlanOptions options = dense_options();
+  options.limits.axes = 3;
+  const Plan result = plan(relief, options);
+  for (const Corner& corner : result.corners) {
+    const std::size_t along = corner.segment % (kPass + 1);
+    if (along < kTurning || along > kPass - kTurning) continue;
+    EXPECT_GT(corner.speed, 80) << corner.segment;
+  }
+}
+
 TEST(DensePath, IsTakenCornerByCornerWhereAStrategyIsAskedFor) {
   for (const auto strategy : {CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted, CornerStrategy::kBlended}) {
     const Plan result = plan(circle(), dense_options(strategy));
