@@ -29,6 +29,7 @@ Leg leg_on(const motion::StraightRun& run, const AxisLimits& limits, const Segme
 bool LegQueue::add(const Segment& segment) {
   if ((segment.end - end_).norm() < kNoLength) {  // nothing to move, but perhaps to wait for
     if (legs_.empty()) {
+      initial_stop_ |= segment.stop || segment.dwell > 0;
       initial_dwell_ += segment.dwell;
     } else {
       joints_.back().stop |= segment.stop || segment.dwell > 0;

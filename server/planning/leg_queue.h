@@ -41,6 +41,7 @@ class LegQueue {
   const Vector& start() const { return start_; }                 // of the path, mm
   const Vector& end() const { return end_; }                     // of what has come, mm
   double initial_dwell() const { return initial_dwell_; }        // s, before anything moves
+  bool initial_stop() const { return initial_stop_; }            // asked for before anything moves
   std::size_t waiting_segments() const { return ends_.size(); }  // of the legs that are kept
   std::uint32_t segments() const { return first_segment_ + static_cast<std::uint32_t>(ends_.size()); }  // that move
 
@@ -49,6 +50,7 @@ class LegQueue {
   AxisLimits limits_;
   bool finished_ = false;
   double initial_dwell_ = 0;
+  bool initial_stop_ = false;
   std::deque<Leg> legs_;
   std::deque<Joint> joints_;
   std::deque<Vector> ends_;                 // of the segments of the legs that are kept, mm

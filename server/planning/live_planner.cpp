@@ -116,7 +116,9 @@ void LivePlanner::begin() {
 
 // The motion is settled until it brakes no more.
 Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const {
-  if (legs_.initial_dwell() > 0) throw invalid("path, start_speed", "and a dwell exclude each other; leave one out");
+  if (legs_.initial_stop()) {
+    throw invalid("path, start_speed", "and a stop or a dwell before the first move exclude each other; leave one out");
+  }
   motion::LinearState state{0, ends_.start_speed, ends_.start_acceleration};
   if (std::abs(state.acceleration) > leg.acceleration) {
     throw invalid("path, start_acceleration",

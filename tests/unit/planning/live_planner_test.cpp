@@ -180,6 +180,8 @@ TEST(PathInMotion, ExcludesRestsAtItsEnds) {
   path.start_speed = 10;
   path.segments.insert(path.segments.begin(), {.end = path.start, .feed = kFeed, .dwell = 1});
   EXPECT_THROW(plan(path, options()), InvalidInput);
+  path.segments.front() = {.end = path.start, .feed = kFeed, .stop = true};
+  EXPECT_THROW(plan(path, options()), InvalidInput);
   path = path_through({{0, 0, 0}}, kFeed, 0.01);
   path.start_speed = 10;
   EXPECT_THROW(plan(path, options()), InvalidInput);
