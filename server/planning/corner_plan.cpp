@@ -23,7 +23,7 @@ double travel_time(const CornerPlan& plan, const Entry& begin, const std::stop_t
     throw_if_stopped(stop);
     const Stage& stage = plan.stages[i];
     const CornerMotion exit = stage.exit.at(plan.speeds[i]);
-    time += stage.stretch ? stage.stretch->spline().duration() : leg_time(stage.leg, entry, exit);
+    time += stage.stretch ? stage.stretch->duration() : leg_time(stage.leg, entry, exit);
     time += exit.duration;
     entry = exit;
   }

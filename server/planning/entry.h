@@ -7,16 +7,18 @@
 
 #include "server/planning/corner_motion.h"
 #include "server/planning/penalized_fit.h"
+#include "server/planning/stretch_piece.h"
 #include "server/planning/time_spline.h"
 
 namespace kcs::planning {
 
 // A stretch that has begun in the part before.
 struct BegunStretch {
-  // What is settled of it, from before the middle of the part's first leg on. Ways count from the start of that leg,
-  // points are where they are on the machine.
-  TimeSpline settled;
-  // Where the search may begin: what was found beyond it, from the last three settled points on.
+  // What is settled of it, from before the middle of the part's first leg on; one piece at least. Ways count from the
+  // start of that leg, positions are where they are on the machine.
+  std::vector<StretchPiece> settled;
+  TimeSpline last;  // the last three points of that
+  // Where the search may begin: what was found beyond it, from these three points on, in the same steps.
   std::vector<double> ways;
   FitWeights weights;
   std::size_t joint = 0;       // of the part: the next one that the tool passes

@@ -79,7 +79,7 @@ class Draft {
     double duration = 0;
     for (const Part& part : parts_) duration += profile(part).total();
     if (!(duration <= kMostPoints * step_)) return {};
-    MotionDraft draft;
+    MotionDraft draft{.step = step_};
     const double in = parts_.front().start * step_;
     draft.ways = {range_.from - in, range_.from};
     double time = step_;  // of the next way, since the start of the part

@@ -7,13 +7,19 @@
 namespace kcs::planning {
 namespace {
 
-// What is settled at a time: so many steps of time (smooth_motion.h) at the feed, and legs, at least. Both make
-// planning wait for the path, and the second keeps short programs whole.
+// What is settled at a time: so many steps of time (smooth_motion.h), and legs, at least. Both make planning wait for
+// the path, and the second keeps short programs whole.
 constexpr double kSettledSteps = 450, kSettledLegs = 64;
 // What is looked at beyond it: so many steps and legs at least, and as often as far as the tool needs to stop.
-constexpr double kAheadSteps = 150, kAheadLegs = 8, kAheadStops = 3;
+constexpr double kAheadSteps = 100, kAheadLegs = 8, kAheadStops = 3;
 // Where legs are so short that these would be more, this is enough of them.
 constexpr double kMostLegs = 20'000;
+
+// A leg of no more steps than this may be part of a dense stretch, whose steps are longer.
+constexpr double kDenseSteps = 6;
+// A corner that turns by more than this, as |D|, is sharp: it costs so many steps more than what the feed asks for.
+// Sections of very many points would take long to plan, and hardly be found.
+constexpr double kSharp = 0.3, kCornerSteps = 8;
 
 // From the feed, along the axes' slowest direction, mm.
 double stopping_way(double feed, const motion::AxisLimits& limits) {
@@ -38,8 +44,8 @@ bool Horizon::in_sight(const LegQueue& queue) {
 void Horizon::see(const Leg& leg) {
   ++legs_;
   way_ += leg.length;
-  const double tolerance = leg.tolerance > 0 ? leg.tolerance : range::kMaxTolerance;
-  steps_ += leg.length / (leg.feed * step_of_time(tolerance, limits_));
+  steps_ += steps_of(leg);
+  direction_ = leg.direction;
   if (ahead_) return;
   const auto seen = static_cast<double>(legs_);
   ahead_ = (steps_ >= share_ * settled_ * kSettledSteps && seen >= share_ * kSettledLegs) || seen >= share_ * kMostLegs;
@@ -49,8 +55,16 @@ void Horizon::see(const Leg& leg) {
   stopping_way_ = stopping_way(leg.feed, limits_);
 }
 
+double Horizon::steps_of(const Leg& leg) const {
+  const double tolerance = leg.tolerance > 0 ? leg.tolerance : range::kMaxTolerance;
+  const double time = leg.length / leg.feed, steps = time / step_of_time(tolerance, limits_);
+  const double at_feed = steps > kDenseSteps ? steps : time / dense_step_of_time(tolerance, limits_);
+  const bool sharp = legs_ > 1 && (leg.direction - direction_).squaredNorm() > kSharp * kSharp;
+  return at_feed + (sharp ? kCornerSteps : 0);
+}
+
 bool Horizon::beyond() const {
-  if (!ahead_) return false;
+  if (!ahead_ || legs_ < at_least_) return false;
   const auto seen = static_cast<double>(legs_ - until_ - 1);
   return (steps_ >= share_ * kAheadSteps && seen >= share_ * kAheadLegs &&
           way_ >= share_ * kAheadStops * stopping_way_) ||

@@ -8,13 +8,14 @@
 
 namespace kcs::planning {
 
-// Counted in the time that the tool would take at the feed, and in legs: first what may be settled, then what is looked
-// at beyond it. Looks at each leg once while the path arrives.
+// Counted in the time that the tool would take at the feed and in sharp corners, and in legs: first what may be
+// settled, then what is looked at beyond it. Looks at each leg once while the path arrives.
 class Horizon {
  public:
-  // share: of the usual distances, > 0. settled: the share of that of the time that may be settled, > 0.
-  explicit Horizon(const motion::AxisLimits& limits, double share = 1, double settled = 1)
-      : limits_(limits), share_(share), settled_(settled) {}
+  // share: of the usual distances, > 0. settled: the share of that of the time that may be settled, > 0. legs: so many
+  // are seen at least, because the verifier was shown them and asks for them.
+  explicit Horizon(const motion::AxisLimits& limits, double share = 1, double settled = 1, std::size_t legs = 0)
+      : limits_(limits), share_(share), settled_(settled), at_least_(legs) {}
 
   // Whether the path is known far enough: to the horizon, or to its end. Legs may have been added since the last call,
   // but none dropped.
@@ -27,14 +28,18 @@ class Horizon {
 
  private:
   void see(const Leg& leg);
+  // Of time, with the corner before the leg.
+  double steps_of(const Leg& leg) const;
   bool beyond() const;
 
   motion::AxisLimits limits_;
   double share_, settled_;
+  std::size_t at_least_;
   std::size_t legs_ = 0, until_ = 0;
-  bool ahead_ = false;          // what may be settled has come; the rest is looked at
-  double steps_ = 0, way_ = 0;  // steps of time; mm
-  double stopping_way_ = 0;     // mm
+  bool ahead_ = false;                                 // what may be settled has come; the rest is looked at
+  double steps_ = 0, way_ = 0;                         // steps of time; mm
+  double stopping_way_ = 0;                            // mm
+  motion::Vector direction_ = motion::Vector::Zero();  // of the last leg seen
 };
 
 }  // namespace kcs::planning

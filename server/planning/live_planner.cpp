@@ -142,7 +142,7 @@ Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const
 // Settles the first part of what is in sight.
 void LivePlanner::settle_next() {
   if (!verifier_) begin();
-  Horizon nearer(options_.limits, kNearer, last_ ? 1 : kFirst);
+  Horizon nearer(options_.limits, kNearer, last_ ? 1 : kFirst, shown_);
   nearer.in_sight(legs_);
   std::unique_ptr<Section> apart;
   std::size_t until_apart = 0;
@@ -231,7 +231,7 @@ void LivePlanner::go_on(const Section::Cut& from, const Section::Cut& to, std::s
   if (done > 0) end_direction_ = legs_.leg(done - 1).direction;
   legs_.drop(done);
   shown_ -= done;
-  horizon_ = Horizon(options_.limits);
+  horizon_ = Horizon(options_.limits, 1, 1, shown_);
   entry_ = std::move(entry);
   cut_ = to;
 }

@@ -73,7 +73,7 @@ void MotionBuilder::corner(const CornerGeometry& geometry, const Cornering& corn
 }
 
 void MotionBuilder::stretch(const Stretch& stretch) {
-  for (std::size_t i = stretch.first_piece(); i < stretch.spline().pieces(); ++i) {
+  for (std::size_t i = stretch.first_piece(); i < stretch.pieces().size(); ++i) {
     const motion::Phase phase = stretch.phase(i);
     append(phase, phase.segments);
   }

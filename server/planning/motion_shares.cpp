@@ -57,14 +57,13 @@ double share_of(const Vector& difference, const Vector& per_limit) {
 
 }  // namespace
 
-void MotionShares::begin(const StretchPath& path, const TimeSpline* before, const std::stop_token& stop) {
+void MotionShares::begin(const StretchPath& path, std::span<const StretchPiece> settled, const std::stop_token& stop) {
   stop_ = stop;
   first_corner_ = 0;
-  if (before == nullptr) return;
   reached_.assign(path.legs().size(), false);
-  for (std::size_t j = 0; j < before->pieces(); ++j) {
-    const auto [first, last] = path.legs_between(before->ways[j], before->ways[j + 3]);
-    pass_corners(path, before->phase(j, Vector::Zero()), first, last);
+  for (const StretchPiece& piece : settled) {
+    const auto [first, last] = path.legs_between(piece.from, piece.to);
+    pass_corners(path, piece.phase, first, last);
   }
   while (reached_[first_corner_]) ++first_corner_;  // nothing comes near to the end of the last leg
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <stop_token>
 #include <vector>
 
 #include "server/motion/limits.h"
 #include "server/planning/stretch_path.h"
+#include "server/planning/stretch_piece.h"
 #include "server/planning/time_spline.h"
 
 namespace kcs::planning {
@@ -30,9 +32,9 @@ struct SearchMode {
 // differences.
 class MotionShares {
  public:
-  // To be called first. The motions that are measured go on from this one, or begin here if it is null: corners that it
-  // has come near to already are done with. Measuring throws Stopped if `stop` asks for it.
-  void begin(const StretchPath& path, const TimeSpline* before, const std::stop_token& stop);
+  // To be called first. The motions that are measured go on from these pieces, or begin here if there are none: corners
+  // that they have come near to are done with. Measuring throws Stopped if `stop` asks for it.
+  void begin(const StretchPath& path, std::span<const StretchPiece> settled, const std::stop_token& stop);
 
   // Measures the spline, whose points were drawn to the legs `legs`. Moves ways and legs of all points but the first
   // and the last three to the places on the path that the curve is nearest to.

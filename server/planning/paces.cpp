@@ -10,7 +10,11 @@ namespace {
 // The change of a step in one round; a step that is too far away from the path is stretched by this share of the
 // excess.
 constexpr double kShortest = 0.85, kLongest = 1.15;
-constexpr double kStretchAway = 0.3;
+constexpr double kStretchAway = 0.15;
+
+// While finishing, what is too fast is slowed down to this share of the feed, inverted: aimed at kAimSpeed, it comes
+// down to the feed in ever smaller steps.
+constexpr double kAimTooFast = 1.03;
 
 // Crowded corners take all of the jerk: at the end, only what is hardly inside the limits needs time.
 constexpr double kAimCrowded = 1.01;
@@ -44,12 +48,13 @@ void Paces::set(const MotionShares& shares, const SearchMode& mode) {
   const auto &speed = shares.haste(), &acceleration = shares.acceleration(), &jerk = shares.jerk();
   const std::size_t steps = speed.size();
   const double aim = mode.crowded && mode.finishing ? kAimCrowded : kAimLimits;
+  const auto aim_speed = [&](double share) { return mode.finishing && share > 1 ? kAimTooFast : kAimSpeed; };
   const auto power = [&](double pace) { return mode.urgent ? sixth_power(pace) : square(sixth_power(pace)); };
   const double least = power(mode.finishing ? 1 : kShortest), most = power(kLongest);
   wishes_.resize(steps + 4);
   for (std::size_t j = 0; j < steps; ++j) {
     double wish =
-        std::max({sixth_power(kAimSpeed * speed[j]),
+        std::max({sixth_power(aim_speed(speed[j]) * speed[j]),
                   cube(aim * std::max(share_at(acceleration, j, 1), share_at(acceleration, j, 0))),
                   square(aim * std::max({share_at(jerk, j, 2), share_at(jerk, j, 1), share_at(jerk, j, 0)}))});
     if (mode.finishing) {

@@ -9,10 +9,10 @@
 namespace kcs::planning {
 namespace {
 
-// What another plan takes over of a stretch: at least so many points. A shorter rest is left no freedom.
-constexpr std::ptrdiff_t kFewestLeft = 60;
+// What another plan takes over of a stretch: at least so many pieces. A shorter rest is left no freedom.
+constexpr std::size_t kFewestLeft = 60;
 
-// A section is followed by this share at a time, a stretch by so many points at least, or else to its end.
+// A section is followed by this share at a time, a stretch by so many pieces at least, or else to its end.
 constexpr std::size_t kFollowed = 3, kFewest = 8;
 
 }  // namespace
@@ -62,7 +62,7 @@ void Section::build_joint(MotionBuilder& builder, std::size_t stage) const {
 std::size_t Section::phase_at(const Cut& cut) const {
   if (cut == end()) return phases_.size();
   const std::size_t first = first_phases_[cut.stage];
-  return cut.points == 0 ? first : first + cut.points - 3 - corners_.stages[cut.stage].stretch->first_piece();
+  return cut.pieces == 0 ? first : first + cut.pieces - corners_.stages[cut.stage].stretch->first_piece();
 }
 
 std::span<const motion::Phase> Section::phases(const Cut& from, const Cut& to) const {
@@ -71,12 +71,12 @@ std::span<const motion::Phase> Section::phases(const Cut& from, const Cut& to) c
 
 double Section::record(const Cut& from, const Cut& to, CornerLog& log) const {
   double at_feed = 0;
-  for (std::size_t i = from.stage; i < to.stage || (i == to.stage && to.points > 0); ++i) {
+  for (std::size_t i = from.stage; i < to.stage || (i == to.stage && to.pieces > 0); ++i) {
     throw_if_stopped(options_.stop);
     const Stage& stage = corners_.stages[i];
     if (stage.stretch) {
-      const std::size_t first = i == from.stage ? from.points : 0;
-      at_feed += record_stretch(i, first, i == to.stage ? to.points : stage.stretch->spline().points.size(), log);
+      const std::size_t first = i == from.stage ? from.pieces : 0;
+      at_feed += record_stretch(i, first, i == to.stage ? to.pieces : stage.stretch->pieces().size(), log);
       continue;
     }
     const LegTimes& times = leg_times_[i];
@@ -102,7 +102,7 @@ double Section::record_stretch(std::size_t stage, std::size_t from, std::size_t 
     log.lose_after(times.entry_lost);
   }
   for (const Corner& corner : corners) log.add(corner);
-  if (to < it.stretch->spline().points.size()) return times.at_feed;
+  if (to < it.stretch->pieces().size()) return times.at_feed;
   if (it.ends_on_joint) {
     record_joint(stage, times.exit_lost, log);
   } else {
@@ -149,20 +149,20 @@ Section::Cut Section::cut_at(std::size_t leg) const {
 // Inside a stretch, where it has not come to its last leg.
 std::optional<Section::Cut> Section::cut_inside(std::size_t stage, std::size_t leg) const {
   const Stretch& stretch = *corners_.stages[stage].stretch;
-  const auto& ways = stretch.spline().ways;
-  const auto known = static_cast<std::ptrdiff_t>(stretch.first_piece() + 3);
-  if (std::ssize(ways) <= known + kFewestLeft) return {};
+  const auto pieces = stretch.pieces();
+  const std::size_t first = stretch.first_piece();
+  if (pieces.size() <= first + kFewestLeft) return {};
+  const auto found = pieces.subspan(first, pieces.size() - kFewestLeft - first);
   const double limit = stretch.path().way(leg - corners_.stages[stage].first_leg + 1);
-  const auto cut = std::upper_bound(ways.begin() + known, ways.end() - kFewestLeft, limit);
-  const auto points = static_cast<std::size_t>(cut - ways.begin());
-  if (points == stretch.first_piece() + 3) return {};
-  return Cut{stage, points};
+  const auto cut = std::ranges::upper_bound(found, limit, {}, &StretchPiece::to);
+  if (cut == found.begin()) return {};
+  return Cut{stage, first + static_cast<std::size_t>(cut - found.begin())};
 }
 
 Section::Cut Section::cut_after(const Cut& cut) const {
   const std::size_t stages = corners_.stages.size();
   std::size_t last = cut.stage;  // of those that are followed
-  if (cut.points == 0) {
+  if (cut.pieces == 0) {
     last += (stages - cut.stage) / kFollowed;
     while (last < stages && !ends_well(corners_.stages[last])) ++last;
     if (last >= stages) return end();
@@ -170,16 +170,17 @@ Section::Cut Section::cut_after(const Cut& cut) const {
   // A stretch that is not the last one was not planned to a rest that nobody asked for: it is followed to its end.
   if (!corners_.stages[last].stretch || last + 1 < stages) return {last + 1, 0};
   const Stretch& stretch = *corners_.stages[last].stretch;
-  const auto& ways = stretch.spline().ways;
-  const std::size_t from = cut.points > 0 ? cut.points : stretch.first_piece() + 3;
-  const std::size_t followed = (ways.size() - 3 - from) / kFollowed, points = from + followed;
-  const bool on_last_leg = stretch.path().leg_at(ways[points - 1]) + 1 == stretch.path().legs().size();
-  return followed < kFewest || on_last_leg ? Cut{last + 1, 0} : Cut{last, points};
+  const auto pieces = stretch.pieces();
+  const std::size_t from = cut.pieces > 0 ? cut.pieces : stretch.first_piece();
+  const std::size_t followed = (pieces.size() - from) / kFollowed, to = from + followed;
+  if (followed < kFewest) return {last + 1, 0};
+  const bool on_last_leg = stretch.path().leg_at(pieces[to - 1].to) + 1 == stretch.path().legs().size();
+  return on_last_leg ? Cut{last + 1, 0} : Cut{last, to};
 }
 
 Section::Rest Section::rest_from(const Cut& cut) const {
   if (cut == begin()) return {0, entry_};
-  if (cut.points > 0) return rest_of_stretch(cut);
+  if (cut.pieces > 0) return rest_of_stretch(cut);
   const std::size_t before = cut.stage - 1;
   const Stage& stage = corners_.stages[before];
   if (stage.ends_on_joint && stage.last_leg + 1 == path_.legs.size()) return {path_.legs.size(), {}};
@@ -199,14 +200,14 @@ Section::Rest Section::rest_from(const Cut& cut) const {
 Section::Rest Section::rest_of_stretch(const Cut& cut) const {
   const Stage& stage = corners_.stages[cut.stage];
   const Stretch& stretch = *stage.stretch;
-  const auto& ways = stretch.spline().ways;
-  const std::size_t unreported = first_unreported(stretch, cut.points);
-  const std::size_t followed = stretch.path().legs_between(ways[cut.points - 3], ways[cut.points]).first;
+  const std::size_t unreported = first_unreported(stretch, cut.pieces);
+  const StretchPiece& next = stretch.pieces()[cut.pieces];
+  const std::size_t followed = stretch.path().legs_between(next.from, next.to).first;
   const std::size_t first = std::min(unreported, followed), leg = stage.first_leg + first;
   Rest rest{.first_leg = leg,
-            .entry = {.need = entry_.need, .rests = false, .begun = stretch.go_on(cut.points, first)}};
+            .entry = {.need = entry_.need, .rests = false, .begun = stretch.go_on(cut.pieces, first)}};
   if (leg > 0) rest.entry.need = corners_.needs[leg - 1].after;
-  rest.entry.begun->joint = stretch.path().leg_at(ways[cut.points - 1]) - first;
+  rest.entry.begun->joint = stretch.path().leg_at(stretch.pieces()[cut.pieces - 1].to) - first;
   rest.entry.begun->unreported = unreported - first;
   return rest;
 }

@@ -19,7 +19,7 @@ class Section {
   // A place in the motion where another plan may take over.
   struct Cut {
     std::size_t stage = 0;
-    std::size_t points = 0;  // of this stage's stretch that come before it; 0: it lies before the stage
+    std::size_t pieces = 0;  // of this stage's stretch that come before it; 0: it lies before the stage
 
     bool operator==(const Cut&) const = default;
   };

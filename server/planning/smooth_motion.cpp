@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "server/planning/density.h"
 #include "server/planning/reweighing.h"
 
 namespace kcs::planning {
@@ -12,11 +13,11 @@ namespace {
 
 // Rounds, at most: in which time may be shortened as well, the first of them with longer steps, and then those in which
 // it is only stretched.
-constexpr int kSearchingCoarsely = 18, kSearching = 26, kFinishing = 80;
+constexpr int kSearchingCoarsely = 20, kSearching = 28, kFinishing = 80;
 constexpr double kCoarser = 2;
 // Searching that has changed the duration by no more than this share in so many rounds, one after the other, goes on
 // with the shorter steps or, if it did, with finishing.
-constexpr double kSteady = 7e-4;
+constexpr double kSteady = 1.5e-3;
 constexpr int kSteadyRounds = 3;
 // In so many rounds the motion is too far from its end to look at it closely.
 constexpr int kRough = 9;
@@ -47,9 +48,8 @@ constexpr std::size_t kFewestSteps = 7;
 // Steps at an end whose mean pace becomes that of the end, at least.
 constexpr std::size_t kFewestNear = 4;
 
-// Sharp corners are crowded if there is one in so many steps.
-constexpr double kCrowd = 12;
-// Then finishing puts in whole steps of time: where this much of one is asked for, at first, and so many rounds later.
+// Where corners are crowded, finishing puts in whole steps of time: where this much of one is asked for, at first, and
+// so many rounds later.
 constexpr double kLeastStep = 0.5, kLeastStepLate = 0.02, kLate = 60;
 
 double square(double value) { return value * value; }
@@ -72,6 +72,12 @@ double hold_time(double tolerance, const motion::AxisLimits& limits) {
   return std::max(ramp_time(limits), kBends * std::sqrt(tolerance / acceleration));
 }
 
+double step_of_time(double share_of_corner, double tolerance, const motion::AxisLimits& limits) {
+  constexpr double kShareOfRamp = 0.25;
+  const double jerk = limits.jerk.head(static_cast<Eigen::Index>(limits.axes)).maxCoeff();
+  return std::min(kShareOfRamp * ramp_time(limits), share_of_corner * std::cbrt(6 * tolerance / jerk));
+}
+
 // The place weights of the ends say nothing.
 void forget_ends(FitWeights& weights) {
   const std::size_t size = weights.place.size();
@@ -88,9 +94,13 @@ double between(const std::vector<double>& values, std::size_t i, double share) {
 }  // namespace
 
 double step_of_time(double tolerance, const motion::AxisLimits& limits) {
-  constexpr double kShareOfRamp = 0.25, kShareOfCorner = 0.12;
-  const double jerk = limits.jerk.head(static_cast<Eigen::Index>(limits.axes)).maxCoeff();
-  return std::min(kShareOfRamp * ramp_time(limits), kShareOfCorner * std::cbrt(6 * tolerance / jerk));
+  constexpr double kShareOfCorner = 0.12;
+  return step_of_time(kShareOfCorner, tolerance, limits);
+}
+
+double dense_step_of_time(double tolerance, const motion::AxisLimits& limits) {
+  constexpr double kShareOfCorner = 0.2;
+  return step_of_time(kShareOfCorner, tolerance, limits);
 }
 
 SmoothMotion::SmoothMotion(const StretchPath& path, const motion::AxisLimits& limits, double step,
@@ -101,15 +111,16 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   if (draft.ways.empty()) return false;
   range_ = range;
   missing_ = 0;
-  spline_.step = step_;
+  spline_.step = draft.step;
   spline_.ways = draft.ways;
   weights_ = std::move(draft.weights);
   // From the draft's speeds the motion becomes faster; from too fast ones it would hardly find back.
   const auto& ways = spline_.ways;
-  speeds_ = {(ways[1] - ways[0]) / step_, (ways.end()[-1] - ways.end()[-2]) / step_};
+  speeds_ = {(ways[1] - ways[0]) / draft.step, (ways.end()[-1] - ways.end()[-2]) / draft.step};
   if (range_.exact) speeds_ = range_.at_most;
-  mode_.crowded = is_crowded();
-  shares_.begin(path_, range_.before, stop_);
+  const double steps = static_cast<double>(ways.size()) * draft.step / step_;
+  mode_.crowded = is_crowded(path_, range_.from, range_.to, static_cast<std::size_t>(steps));
+  shares_.begin(path_, range_.settled, stop_);
   change_step(spline_.ways.size() < kFewestToCoarsen ? step_ : kCoarser * step_);
   const double longest = kMostGrowth * spline_.step * static_cast<double>(spline_.ways.size());
   int settled = kSettling, steady = 0;
@@ -128,7 +139,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     least_step_ = kLeastStep + late * (kLeastStepLate - kLeastStep);
     fit();
     shares_.measure(path_, limits_, spline_, legs_, mode_.finishing || (spline_.step > step_ && round >= kRough));
-    if (mode_.finishing && accept()) return !stands(draft.ways);
+    if (mode_.finishing && accept()) return !stands(draft.ways, draft.step);
     reweigh(shares_, mode_, hold_time_ / spline_.step, weights_);
     if (round < settled) continue;
     steady = retime() < kSteady ? steady + 1 : 0;
@@ -144,13 +155,6 @@ void SmoothMotion::find_held_steps() {
   const bool starts_in_motion = range_.exact && range_.at_most.entry > 0;
   mode_.held_start = range_.before != nullptr || starts_in_motion ? steps : 0;
   mode_.held_end = range_.exact && range_.at_most.exit > 0 ? steps : 0;
-}
-
-bool SmoothMotion::is_crowded() const {
-  std::size_t sharp = 0;
-  const std::size_t last = path_.leg_at(range_.to);
-  for (std::size_t leg = path_.leg_at(range_.from); leg < last; ++leg) sharp += path_.may_be_missed(leg) ? 1 : 0;
-  return kCrowd * static_cast<double>(sharp) > static_cast<double>(spline_.ways.size());
 }
 
 // The same motion by points at other times.
@@ -190,8 +194,8 @@ void SmoothMotion::find_start() {
   const auto ways = range_.before->ways.end() - 3;
   std::copy_n(points, 3, start_points_.begin());
   std::copy_n(ways, 3, start_ways_.begin());
-  if (spline_.step == step_) return;
-  const double longer = spline_.step / step_;
+  if (spline_.step == range_.before->step) return;
+  const double longer = spline_.step / range_.before->step;
   const Vector bend = points[2] - 2 * points[1] + points[0], move = longer * (points[2] - points[0]) / 2;
   start_points_[1] += (1 - square(longer)) / 6 * bend;
   start_points_[0] = start_points_[1] - move + square(longer) / 2 * bend;
@@ -248,14 +252,14 @@ double SmoothMotion::allowed() const {
 
 // Whether the motion keeps all limits because it hardly moves where the draft does: a search can end like that where it
 // goes on from another motion.
-bool SmoothMotion::stands(const std::vector<double>& draft) const {
+bool SmoothMotion::stands(const std::vector<double>& draft, double step) const {
   const auto& ways = spline_.ways;
   std::size_t k = 1;
   for (std::size_t i = 1; i + 1 < draft.size(); ++i) {
-    const double step = (draft[i + 1] - draft[i - 1]) / 2, feed = path_.feed_between(draft[i], draft[i]);
-    if (step < kMoves * feed * step_) continue;
+    const double speed = (draft[i + 1] - draft[i - 1]) / (2 * step), feed = path_.feed_between(draft[i], draft[i]);
+    if (speed < kMoves * feed) continue;
     while (k + 2 < ways.size() && ways[k + 1] < draft[i]) ++k;
-    if (ways[k + 1] - ways[k] < kStands * step) return true;
+    if (ways[k + 1] - ways[k] < kStands * speed * spline_.step) return true;
   }
   return false;
 }

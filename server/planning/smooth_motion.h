@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -28,12 +29,15 @@ struct MotionRange {
   EndSpeeds at_most;        // the greatest speeds there; what begins or ends at rest does so exactly
   bool exact = false;       // these are the speeds there
   bool hurried = false;     // what is found sooner and is nearly as fast will do
-  // The motion goes on from the last three points of this one, if there is one, whatever `from` and at_most.entry are.
+  // The motion goes on from these three points, if there are any, whatever `from` and at_most.entry are…
   const TimeSpline* before = nullptr;
+  // …and these are the pieces that lead there.
+  std::span<const StretchPiece> settled = {};
 };
 
 // Ways at equal times, with how much each point is held: what a search begins with.
 struct MotionDraft {
+  double step = 0;  // s
   std::vector<double> ways;
   FitWeights weights;
 };
@@ -41,6 +45,9 @@ struct MotionDraft {
 // The step of time that suits these limits and the tolerance (mm), s: a fraction of the time in which an axis reaches
 // its acceleration, and of the time that a corner takes.
 double step_of_time(double tolerance, const motion::AxisLimits& limits);
+// The same where legs follow each other within a few steps (density.h): what is asked for changes slowly there, and a
+// longer step finds as fast a motion with less work.
+double dense_step_of_time(double tolerance, const motion::AxisLimits& limits);
 
 // Finds a motion that is near to the fastest, as a spline of time. It starts from a draft and changes time and place in
 // turns: the points of the spline are drawn to the path only where they are too far away from it, else they avoid
@@ -61,7 +68,6 @@ class SmoothMotion {
   // What was found. Its step is a little longer than what was asked for if that was what it took.
   const TimeSpline& spline() const { return spline_; }
   EndSpeeds speeds() const { return speeds_; }
-  double step() const { return step_; }  // s, as asked for
   // The weights that it has come to.
   const FitWeights& weights() const { return weights_; }
 
@@ -72,9 +78,8 @@ class SmoothMotion {
   void fit();
   bool accept();
   double allowed() const;
-  bool stands(const std::vector<double>& draft) const;
+  bool stands(const std::vector<double>& draft, double step) const;
   void slow_down_evenly();
-  bool is_crowded() const;
   void find_held_steps();
   double retime();
   void resample(std::size_t count);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/planning/density.h"
 #include "server/planning/first_draft.h"
 
 namespace kcs::planning {
@@ -26,63 +27,76 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
       stop_(options.stop),
       begun_(begun),
       path_(path, range, options),
-      step_(begun == nullptr ? step_of_time(path_.tolerance(), options.limits) : begun->settled.step) {
-  search(at_most, false);
+      step_(step_of_time(path_.tolerance(), limits_)) {
+  if (begun != nullptr) {
+    last_ = begun->last;
+    for (Vector& point : last_.points) point -= path_.origin();
+    pieces_ = begun->settled;
+    for (StretchPiece& piece : pieces_) piece.phase.start.position -= path_.origin();
+  }
+  // Whatever suited the stretch so far: what follows may be of another kind.
+  const MotionRange searched = motion_range(at_most, false);
+  MotionDraft begin = draft(searched);
+  const double steps = static_cast<double>(begin.ways.size()) * begin.step / step_;
+  if (is_dense(path_, searched.from, searched.to, static_cast<std::size_t>(steps))) {
+    step_ = dense_step_of_time(path_.tolerance(), limits_);
+    if (begun == nullptr) begin = draft(searched);
+  }
+  search(searched, std::move(begin));
+}
+
+MotionRange Stretch::motion_range(const EndSpeeds& at_most, bool exact) const {
+  const bool begun = begun_ != nullptr;
+  return {.from = begun ? last_.ways[1] : 0,
+          .to = path_.length(),
+          .at_most = at_most,
+          .exact = exact,
+          .hurried = hurried_,
+          .before = begun ? &last_ : nullptr,
+          .settled = pieces().first(first_piece())};
 }
 
 EndSpeeds Stretch::plan(const EndSpeeds& at_most) {
   if (failed() || (speeds_.entry <= at_most.entry && speeds_.exit <= at_most.exit)) return speeds_;
   const EndSpeeds slower{std::min(speeds_.entry, at_most.entry), std::min(speeds_.exit, at_most.exit)};
   // A motion that becomes a little slower than asked for makes its neighbours slower, and they it, on and on.
-  if (slowed_) search(slower, true);
-  if (!slowed_ || failed()) search(slower, false);
+  const auto search_with = [&](bool exact) {
+    const MotionRange searched = motion_range(slower, exact);
+    search(searched, draft(searched));
+  };
+  if (slowed_) search_with(true);
+  if (!slowed_ || failed()) search_with(false);
   slowed_ = true;
   return speeds_;
 }
 
-void Stretch::search(const EndSpeeds& at_most, bool exact) {
-  TimeSpline settled;
-  if (begun_ != nullptr) {
-    settled = begun_->settled;
-    for (Vector& point : settled.points) point -= path_.origin();
-  }
-  const MotionRange range{.from = begun_ == nullptr ? 0 : settled.ways.end()[-2],
-                          .to = path_.length(),
-                          .at_most = at_most,
-                          .exact = exact,
-                          .hurried = hurried_,
-                          .before = begun_ == nullptr ? nullptr : &settled};
+void Stretch::search(const MotionRange& range, MotionDraft draft) {
   SmoothMotion motion(path_, limits_, step_, stop_);
-  if (!motion.search(range, draft(range))) {
-    spline_ = {};
+  if (!motion.search(range, std::move(draft))) {
+    found_ = {};
     speeds_ = {};
     return;
   }
+  pieces_.resize(first_piece());
+  found_ = motion.spline();
+  append_pieces(found_, pieces_);
   speeds_ = motion.speeds();
   weights_ = motion.weights();
-  if (begun_ == nullptr) {
-    spline_ = motion.spline();
-    return;
-  }
-  spline_ = std::move(settled);
-  const TimeSpline& found = motion.spline();
-  spline_.points.insert(spline_.points.end(), found.points.begin() + 3, found.points.end());
-  spline_.ways.insert(spline_.ways.end(), found.ways.begin() + 3, found.ways.end());
 }
 
 // What was found before, as far as it did not brake yet for its own end, and a slow motion after it; or farther, until
 // the slow motion can be reached: what was found leads to rest.
 MotionDraft Stretch::draft(const MotionRange& range) const {
   if (begun_ == nullptr) return first_draft(path_, limits_, range, step_);
-  MotionDraft draft{begun_->ways, begun_->weights};
+  MotionDraft draft{begun_->last.step, begun_->ways, begun_->weights};
   const double enough = (draft.ways.front() + draft.ways.back()) / 2;
   std::size_t kept = 3;
   while (kept < draft.ways.size() && draft.ways[kept] < std::min(enough, range.to)) ++kept;
   const auto step_at_end = [&] { return draft.ways[kept - 1] - draft.ways[kept - 2]; };
   const auto slow_motion = [&] {
     const MotionRange rest{
-        .from = draft.ways[kept - 1], .to = range.to, .at_most = {step_at_end() / step_, range.at_most.exit}};
-    return first_draft(path_, limits_, rest, step_);
+        .from = draft.ways[kept - 1], .to = range.to, .at_most = {step_at_end() / draft.step, range.at_most.exit}};
+    return first_draft(path_, limits_, rest, draft.step);
   };
   const auto can_reach = [&](const MotionDraft& next) {
     return !next.ways.empty() && next.ways[1] - next.ways[0] >= kReached * step_at_end();
@@ -105,28 +119,36 @@ MotionDraft Stretch::draft(const MotionRange& range) const {
 }
 
 motion::Phase Stretch::phase(std::size_t piece) const {
-  const auto [first, last] = path_.legs_between(spline_.ways[piece], spline_.ways[piece + 3]);
-  motion::Phase phase = spline_.phase(piece, path_.origin());
+  motion::Phase phase = pieces_[piece].phase;
+  phase.start.position += path_.origin();
+  const auto [first, last] = path_.legs_between(pieces_[piece].from, pieces_[piece].to);
   phase.segments = {path_.legs()[first].segments.first, path_.legs()[last].segments.last};
   return phase;
 }
 
-BegunStretch Stretch::go_on(std::size_t points, std::size_t leg) const {
+BegunStretch Stretch::go_on(std::size_t pieces, std::size_t leg) const {
   const double start = path_.start_of(leg), middle = (path_.way(leg) + path_.way(leg + 1)) / 2;
-  std::size_t from = points - 3;
-  while (from > 0 && spline_.ways[from + 1] > middle) --from;
-  const std::size_t settled = begun_ == nullptr ? 0 : begun_->settled.points.size() - 3;
-  const std::size_t found = points - 3 - settled;
-  const auto part = [&](const auto& values) {
-    return std::vector(values.begin() + static_cast<std::ptrdiff_t>(from),
-                       values.begin() + static_cast<std::ptrdiff_t>(points));
+  std::size_t from = pieces - 1;
+  while (from > 0 && pieces_[from].begin > middle) --from;
+  const std::size_t found = pieces - first_piece();
+  const auto next_three = [&](const auto& values) {
+    return std::vector(values.begin() + static_cast<std::ptrdiff_t>(found),
+                       values.begin() + static_cast<std::ptrdiff_t>(found + 3));
   };
   BegunStretch result{
-      .settled = {spline_.step, part(spline_.points), part(spline_.ways)},
-      .ways = tail(spline_.ways, points - 3),
+      .settled = {pieces_.begin() + static_cast<std::ptrdiff_t>(from),
+                  pieces_.begin() + static_cast<std::ptrdiff_t>(pieces)},
+      .last = {found_.step, next_three(found_.points), next_three(found_.ways)},
+      .ways = tail(found_.ways, found),
       .weights = {tail(weights_.place, found), tail(weights_.acceleration, found), tail(weights_.jerk, found)}};
-  for (Vector& point : result.settled.points) point += path_.origin();
-  for (double& way : result.settled.ways) way -= start;
+  const double time = result.settled.front().phase.start_time;
+  for (StretchPiece& piece : result.settled) {
+    piece.phase.start_time -= time;
+    piece.phase.start.position += path_.origin();
+    for (double* way : {&piece.from, &piece.to, &piece.begin, &piece.end}) *way -= start;
+  }
+  for (Vector& point : result.last.points) point += path_.origin();
+  for (double& way : result.last.ways) way -= start;
   for (double& way : result.ways) way -= start;
   return result;
 }

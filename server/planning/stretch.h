@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <stop_token>
+#include <vector>
 
 #include "server/planning/entry.h"
 #include "server/planning/options.h"
@@ -20,27 +22,30 @@ class Stretch {
           const BegunStretch* begun = nullptr);
 
   // No motion that keeps everything was found: the stretch has to be travelled in another way.
-  bool failed() const { return spline_.points.empty(); }
+  bool failed() const { return found_.points.empty(); }
 
   // A motion whose speeds at the ends are at most these, mm/s; the speeds that it has. If it fails, they are 0.
   EndSpeeds plan(const EndSpeeds& at_most);
 
   const StretchPath& path() const { return path_; }
-  // With what was settled before.
-  const TimeSpline& spline() const { return spline_; }
+  // Those that were settled before, and those that were found.
+  std::span<const StretchPiece> pieces() const { return pieces_; }
+  double duration() const { return pieces_.back().phase.end_time(); }  // of all of them, s
   EndSpeeds speeds() const { return speeds_; }
   // The first piece that was not settled before.
-  std::size_t first_piece() const { return begun_ == nullptr ? 0 : begun_->settled.pieces(); }
+  std::size_t first_piece() const { return begun_ == nullptr ? 0 : begun_->settled.size(); }
   // The first corner, of those inside the stretch, that has no record yet.
   std::size_t first_corner() const { return begun_ == nullptr ? 0 : begun_->unreported; }
-  // A piece of the spline, with the segments of the whole path.
+  // A piece where it is on the machine, with the segments of the whole path.
   motion::Phase phase(std::size_t piece) const;
 
-  // The stretch from its first so many points on, for a part of the path that begins with its leg `leg`.
-  BegunStretch go_on(std::size_t points, std::size_t leg) const;
+  // The stretch from its first so many pieces on, more than first_piece(), for a part of the path that begins with its
+  // leg `leg`.
+  BegunStretch go_on(std::size_t pieces, std::size_t leg) const;
 
  private:
-  void search(const EndSpeeds& at_most, bool exact);
+  MotionRange motion_range(const EndSpeeds& at_most, bool exact) const;
+  void search(const MotionRange& range, MotionDraft draft);
   MotionDraft draft(const MotionRange& range) const;
 
   AxisLimits limits_;
@@ -48,9 +53,11 @@ class Stretch {
   std::stop_token stop_;
   const BegunStretch* begun_;
   StretchPath path_;
-  double step_;  // s
-  TimeSpline spline_;
-  FitWeights weights_;  // of what was found, from the last three settled points on
+  double step_;      // of what is searched, s
+  TimeSpline last_;  // the last three settled points, if there are any
+  std::vector<StretchPiece> pieces_;
+  TimeSpline found_;  // from the last three settled points on
+  FitWeights weights_;
   EndSpeeds speeds_;
   bool slowed_ = false;  // once already
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "server/motion/contour.h"
@@ -17,22 +18,21 @@ constexpr double kAtFeed = 0.99;
 // Samples of a piece, and steps from the best one to the nearest place.
 constexpr int kSamples = 4, kSteps = 5;
 
-// Follows a spline of time along its path.
+// Follows a stretch along its path.
 class Walk {
  public:
-  explicit Walk(const TimeSpline& spline) : spline_(spline) {}
+  explicit Walk(std::span<const StretchPiece> pieces) : pieces_(pieces) {}
 
   // When the motion is at this way; ways must not fall from call to call.
   double time_at(double way) {
-    const auto knot_way = [&](std::size_t knot) { return spline_.ways[knot + 1]; };
-    while (piece_ + 1 < spline_.pieces() && knot_way(piece_ + 1) < way) ++piece_;
-    const double from = knot_way(piece_), to = knot_way(piece_ + 1);
-    const double share = to > from ? std::clamp((way - from) / (to - from), 0.0, 1.0) : 0;
-    return spline_.step * (static_cast<double>(piece_) + share);
+    while (piece_ + 1 < pieces_.size() && pieces_[piece_].end < way) ++piece_;
+    const auto& [phase, from, to, begin, end] = pieces_[piece_];
+    const double share = end > begin ? std::clamp((way - begin) / (end - begin), 0.0, 1.0) : 0;
+    return phase.start_time + share * phase.duration;
   }
 
  private:
-  const TimeSpline& spline_;
+  std::span<const StretchPiece> pieces_;
   std::size_t piece_ = 0;
 };
 
@@ -69,32 +69,30 @@ struct Nearest {
 // Looks at the pieces that pass from one leg to another. Legs must not fall from call to call.
 class Passing {
  public:
-  // pieces: how many of them are settled.
-  Passing(const Stretch& stretch, std::size_t pieces) : stretch_(stretch), pieces_(pieces) {
-    const auto& ways = stretch.spline().ways;
-    for (std::size_t j = 0; j < pieces; ++j) legs_.push_back(stretch.path().legs_between(ways[j], ways[j + 3]));
+  // settled: how many of its pieces are.
+  Passing(const Stretch& stretch, std::size_t settled)
+      : path_(stretch.path()), pieces_(stretch.pieces().first(settled)) {
+    for (const StretchPiece& piece : pieces_) legs_.push_back(path_.legs_between(piece.from, piece.to));
   }
 
   // Where the motion is nearest to the end of a leg.
   Nearest to_end_of(std::size_t leg) {
-    const TimeSpline& spline = stretch_.spline();
-    const Vector& point = stretch_.path().corners()[leg + 1];
-    while (first_ + 1 < pieces_ && legs_[first_].second <= leg) ++first_;
+    const Vector& point = path_.corners()[leg + 1];
+    while (first_ + 1 < pieces_.size() && legs_[first_].second <= leg) ++first_;
     Nearest best;
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = first_;
-    for (std::size_t j = first_; j < pieces_ && legs_[j].first <= leg; ++j) {
-      const double distance =
-          std::min((spline.knot(j) - point).squaredNorm(), (spline.knot(j + 1) - point).squaredNorm());
+    for (std::size_t j = first_; j < pieces_.size() && legs_[j].first <= leg; ++j) {
+      const double distance = std::min((at_knot(j) - point).squaredNorm(), (at_knot(j + 1) - point).squaredNorm());
       if (distance >= least) continue;
       least = distance;
       nearest = j;
     }
     least = std::numeric_limits<double>::infinity();
     // A knot may be the nearest of all, but a place in the piece on either side of it nearer still.
-    for (std::size_t j = std::max(first_, nearest > 0 ? nearest - 1 : 0); j <= nearest + 1 && j < pieces_; ++j) {
+    for (std::size_t j = std::max(first_, nearest > 0 ? nearest - 1 : 0); j <= nearest + 1 && j < pieces_.size(); ++j) {
       if (legs_[j].first > leg) break;
-      const motion::State state = nearest_in(spline.phase(j, Vector::Zero()), point);
+      const motion::State state = nearest_in(pieces_[j].phase, point);
       const double distance = (state.position - point).squaredNorm();
       if (distance >= least) continue;
       least = distance;
@@ -106,7 +104,7 @@ class Passing {
  private:
   // From the legs that the piece follows, mm.
   double error(const Vector& position, std::size_t piece) const {
-    const auto& corners = stretch_.path().corners();
+    const auto& corners = path_.corners();
     const auto [first, last] = legs_[piece];
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t leg = first; leg <= last; ++leg) {
@@ -115,18 +113,23 @@ class Passing {
     return least;
   }
 
-  const Stretch& stretch_;
-  std::size_t pieces_;
+  // Where piece j begins, or the last one ends.
+  Vector at_knot(std::size_t j) const {
+    if (j < pieces_.size()) return pieces_[j].phase.start.position;
+    return pieces_[j - 1].phase.at(pieces_[j - 1].phase.duration).position;
+  }
+
+  const StretchPath& path_;
+  std::span<const StretchPiece> pieces_;
   std::vector<std::pair<std::size_t, std::size_t>> legs_;  // the first and the last one of each piece
   std::size_t first_ = 0;                                  // piece
 };
 
 double time_at_feed(const Stretch& stretch, std::size_t from, std::size_t to) {
-  const TimeSpline& spline = stretch.spline();
   double time = 0;
-  for (std::size_t j = from; j < to; ++j) {
-    const double feed = stretch.path().feed_between(spline.ways[j], spline.ways[j + 3]);
-    if (spline.velocity(j + 1).norm() >= kAtFeed * feed) time += spline.step;
+  for (const auto& [phase, first, last, begin, end] : stretch.pieces().subspan(from, to - from)) {
+    const double feed = stretch.path().feed_between(first, last);
+    if (phase.at(phase.duration / 2).velocity.norm() >= kAtFeed * feed) time += phase.duration;
   }
   return time;
 }
@@ -135,13 +138,13 @@ double middle_of(const StretchPath& path, std::size_t leg) { return (path.way(le
 
 }  // namespace
 
-std::size_t first_unreported(const Stretch& stretch, std::size_t points) {
+std::size_t first_unreported(const Stretch& stretch, std::size_t pieces) {
   const StretchPath& path = stretch.path();
   const std::size_t corners = path.legs().size() - 1;
-  if (points == 0) return stretch.first_corner();
-  if (points == stretch.spline().points.size()) return corners;
+  if (pieces == 0) return stretch.first_corner();
+  if (pieces == stretch.pieces().size()) return corners;
   std::size_t corner = stretch.first_corner();
-  while (corner < corners && middle_of(path, corner + 1) <= stretch.spline().ways[points - 2]) ++corner;
+  while (corner < corners && middle_of(path, corner + 1) <= stretch.pieces()[pieces - 1].end) ++corner;
   return corner;
 }
 
@@ -151,10 +154,10 @@ StretchTimes add_corners(const Stretch& stretch, std::size_t from, std::size_t t
   const auto legs = path.legs();
   const auto at_feed = [&](std::size_t leg) { return (path.way(leg + 1) - path.way(leg)) / legs[leg].feed; };
   const std::size_t first = first_unreported(stretch, from), end = first_unreported(stretch, to);
-  Walk walk(stretch.spline());
-  Passing passing(stretch, to - 3);
+  Walk walk(stretch.pieces());
+  Passing passing(stretch, to);
   double before = walk.time_at(middle_of(path, first));
-  StretchTimes result{.at_feed = time_at_feed(stretch, from == 0 ? stretch.first_piece() : from - 3, to - 3)};
+  StretchTimes result{.at_feed = time_at_feed(stretch, from == 0 ? stretch.first_piece() : from, to)};
   if (from == 0 && stretch.first_piece() == 0) result.entry_lost = before - at_feed(0) / 2;
   for (std::size_t i = first; i < end; ++i) {
     throw_if_stopped(options.stop);
@@ -174,7 +177,7 @@ StretchTimes add_corners(const Stretch& stretch, std::size_t from, std::size_t t
     before = after;
   }
   if (end + 1 == legs.size()) {
-    result.exit_lost = stretch.spline().duration() - before - at_feed(legs.size() - 1) / 2;
+    result.exit_lost = stretch.duration() - before - at_feed(legs.size() - 1) / 2;
   }
   return result;
 }

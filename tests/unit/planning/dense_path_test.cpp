@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "tests/unit/planning/paths.h"
 
@@ -119,6 +120,30 @@ TEST(DensePath, DoesNotBrakeWhereSectionsMeet) {
     if (along < kTurning || along > kPass - kTurning) continue;
     EXPECT_GT(corner.speed, 80) << corner.segment;
   }
+}
+
+// What suits one kind of path must not be kept where the next kind begins: it would cost more than a stop there.
+TEST(DensePath, IsNoSlowerBesideSharpCorners) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> length(0.5, 3), turn(0.5, 2);
+  std::bernoulli_distribution left;
+  Toolpath whole, part;
+  double angle = 0, parts = 0;
+  for (int block = 0; block < 8; ++block) {
+    const bool dense = block % 2 == 0;
+    for (int i = 0; i < (dense ? 1200 : 150); ++i) {
+      angle += dense ? 0.05 / 8 : (left(random) ? 1 : -1) * turn(random);
+      const double leg = dense ? 0.05 : length(random);
+      const Vector before = whole.segments.empty() ? whole.start : whole.segments.back().end;
+      const Vector end = before + leg * Vector(std::cos(angle), std::sin(angle), 0);
+      whole.segments.push_back({.end = end, .feed = kFeed, .tolerance = kTolerance});
+      part.segments.push_back(whole.segments.back());
+    }
+    parts += plan(part, dense_options()).summary.cycle_time;
+    part.start = whole.segments.back().end;
+    part.segments.clear();
+  }
+  EXPECT_LT(plan(whole, dense_options()).summary.cycle_time, parts);
 }
 
 TEST(DensePath, IsTakenCornerByCornerWhereAStrategyIsAskedFor) {

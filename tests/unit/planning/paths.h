@@ -23,6 +23,18 @@ inline Toolpath two_legs(double degrees, double tolerance, double feed = 100) {
   return path_through({{10, 0, 0}, {10 + 10 * std::cos(angle), 10 * std::sin(angle), 0}}, feed, tolerance);
 }
 
+// So many legs of `length` mm, each turned by `degrees` from the one before; 100 mm/s, tolerance 0.05 mm.
+inline Toolpath turning_legs(int count, double length, double degrees) {
+  Toolpath path;
+  Vector end = Vector::Zero();
+  for (int i = 0; i < count; ++i) {
+    const double angle = i * degrees * std::numbers::pi / 180;
+    end += length * Vector(std::cos(angle), std::sin(angle), 0);
+    path.segments.push_back({.end = end, .feed = 100, .tolerance = 0.05});
+  }
+  return path;
+}
+
 // All of a path's legs.
 inline LegQueue queue_of(const Toolpath& path, const AxisLimits& limits) {
   LegQueue queue(path.start, limits);

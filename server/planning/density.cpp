@@ -1,0 +1,23 @@
+#include "server/planning/density.h"
+
+namespace kcs::planning {
+namespace {
+
+// So many points for each sharp corner, or for each leg, are few.
+constexpr double kCrowd = 12, kDense = 12;
+
+}  // namespace
+
+bool is_crowded(const StretchPath& path, double from, double to, std::size_t points) {
+  std::size_t sharp = 0;
+  const std::size_t last = path.leg_at(to);
+  for (std::size_t leg = path.leg_at(from); leg < last; ++leg) sharp += path.may_be_missed(leg) ? 1 : 0;
+  return kCrowd * static_cast<double>(sharp) > static_cast<double>(points);
+}
+
+bool is_dense(const StretchPath& path, double from, double to, std::size_t points) {
+  const std::size_t legs = path.leg_at(to) - path.leg_at(from) + 1;
+  return kDense * static_cast<double>(legs) > static_cast<double>(points) && !is_crowded(path, from, to, points);
+}
+
+}  // namespace kcs::planning
