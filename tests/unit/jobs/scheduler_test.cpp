@@ -158,6 +158,7 @@ TEST(Scheduler, RefusesWhatDoesNotFitIntoTheQueue) {
   Blocker blockers[2];
   Scheduler scheduler({.threads = 2, .queue_length = 3, .client_waiting = 100, .client_running = 2});
   for (Blocker& blocker : blockers) scheduler.submit("anna", Priority::kNormal, blocker.step());
+  for (const Blocker& blocker : blockers) blocker.wait_until_begun();
   for (int i = 0; i < 3; ++i) scheduler.submit("anna", Priority::kNormal, nothing());
   const auto refused = refusal(scheduler, "ben");
   ASSERT_TRUE(refused);
@@ -170,6 +171,7 @@ TEST(Scheduler, RefusesAClientWhoHasTooManyWaitingAndNoOther) {
   Blocker blocker;
   Scheduler scheduler({.threads = 1, .queue_length = 100, .client_waiting = 2, .client_running = 1});
   scheduler.submit("anna", Priority::kNormal, blocker.step());
+  blocker.wait_until_begun();
   scheduler.submit("anna", Priority::kNormal, nothing());
   const JobId last = scheduler.submit("anna", Priority::kNormal, nothing());
   const auto refused = refusal(scheduler, "anna");
