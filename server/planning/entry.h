@@ -12,7 +12,7 @@
 
 namespace kcs::planning {
 
-// A stretch that has begun in the part before.
+// A stretch that has begun in the part before. The corner at the end of the part's first leg has no record yet.
 struct BegunStretch {
   // What is settled of it, from before the middle of the part's first leg on; one piece at least. Ways count from the
   // start of that leg, positions are where they are on the machine.
@@ -21,8 +21,7 @@ struct BegunStretch {
   // Where the search may begin: what was found beyond it, from these three points on, in the same steps.
   std::vector<double> ways;
   FitWeights weights;
-  std::size_t joint = 0;       // of the part: the next one that the tool passes
-  std::size_t unreported = 0;  // of the part: the first one whose corner has no record yet
+  std::size_t joint = 0;  // of the part: the next one that the tool passes
 };
 
 struct Entry {

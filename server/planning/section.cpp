@@ -200,15 +200,11 @@ Section::Rest Section::rest_from(const Cut& cut) const {
 Section::Rest Section::rest_of_stretch(const Cut& cut) const {
   const Stage& stage = corners_.stages[cut.stage];
   const Stretch& stretch = *stage.stretch;
-  const std::size_t unreported = first_unreported(stretch, cut.pieces);
-  const StretchPiece& next = stretch.pieces()[cut.pieces];
-  const std::size_t followed = stretch.path().legs_between(next.from, next.to).first;
-  const std::size_t first = std::min(unreported, followed), leg = stage.first_leg + first;
+  const std::size_t first = first_unreported(stretch, cut.pieces), leg = stage.first_leg + first;
   Rest rest{.first_leg = leg,
             .entry = {.need = entry_.need, .rests = false, .begun = stretch.go_on(cut.pieces, first)}};
   if (leg > 0) rest.entry.need = corners_.needs[leg - 1].after;
   rest.entry.begun->joint = stretch.path().leg_at(stretch.pieces()[cut.pieces - 1].to) - first;
-  rest.entry.begun->unreported = unreported - first;
   return rest;
 }
 

@@ -34,8 +34,6 @@ class Stretch {
   EndSpeeds speeds() const { return speeds_; }
   // The first piece that was not settled before.
   std::size_t first_piece() const { return begun_ == nullptr ? 0 : begun_->settled.size(); }
-  // The first corner, of those inside the stretch, that has no record yet.
-  std::size_t first_corner() const { return begun_ == nullptr ? 0 : begun_->unreported; }
   // A piece where it is on the machine, with the segments of the whole path.
   motion::Phase phase(std::size_t piece) const;
 

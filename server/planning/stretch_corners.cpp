@@ -141,10 +141,12 @@ double middle_of(const StretchPath& path, std::size_t leg) { return (path.way(le
 std::size_t first_unreported(const Stretch& stretch, std::size_t pieces) {
   const StretchPath& path = stretch.path();
   const std::size_t corners = path.legs().size() - 1;
-  if (pieces == 0) return stretch.first_corner();
+  if (pieces == 0) return 0;
   if (pieces == stretch.pieces().size()) return corners;
-  std::size_t corner = stretch.first_corner();
-  while (corner < corners && middle_of(path, corner + 1) <= stretch.pieces()[pieces - 1].end) ++corner;
+  const StretchPiece& next = stretch.pieces()[pieces];
+  const std::size_t followed = path.legs_between(next.from, next.to).first;
+  std::size_t corner = 0;
+  while (corner < followed && middle_of(path, corner + 1) <= stretch.pieces()[pieces - 1].end) ++corner;
   return corner;
 }
 

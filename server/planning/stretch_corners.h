@@ -16,7 +16,7 @@ struct StretchTimes {
 };
 
 // The first corner inside the stretch that has no record yet when its first so many pieces are settled (0: no more than
-// were settled before): the tool has not come to the middle of the leg after it.
+// were settled before): the tool has not come to the middle of the leg after it, or may still come nearer to it.
 std::size_t first_unreported(const Stretch& stretch, std::size_t pieces);
 
 // Appends a record of each corner that has none when the first `from` pieces are settled, but has one when the first

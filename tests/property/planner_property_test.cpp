@@ -101,6 +101,12 @@ TEST_P(LongPaths, KeepEveryPromise) { keep_every_promise(long_case, GetParam(), 
 
 INSTANTIATE_TEST_SUITE_P(Long, LongPaths, testing::Range<std::uint64_t>(0, kLongShards));
 
+// A section ended in a tangle smaller than the tolerance, and a corner's record was written too soon.
+TEST(PathsThatOnceFailed, KeepEveryPromise) {
+  keep_every_promise(long_case, 133, 1);
+  keep_every_promise(dense_case, 2359, 1);
+}
+
 // Paths that go on from a motion and lead into one. Not every one can: then it says so.
 TEST(PathsInMotion, KeepEveryPromise) {
   const std::uint64_t count = cases(4'000);
