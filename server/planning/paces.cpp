@@ -14,7 +14,7 @@ constexpr double kStretchAway = 0.15;
 
 // While finishing, what is too fast is slowed down to this share of the feed, inverted: aimed at kAimSpeed, it comes
 // down to the feed in ever smaller steps.
-constexpr double kAimTooFast = 1.03;
+constexpr double kAimTooFast = 1.02;
 
 // Crowded corners take all of the jerk: at the end, only what is hardly inside the limits needs time.
 constexpr double kAimCrowded = 1.01;
