@@ -6,6 +6,9 @@ namespace {
 // So many points for each sharp corner, or for each leg, are few.
 constexpr double kCrowd = 12, kDense = 12;
 
+// Of fewer points nothing is dense: they cost little, and a short piece with rests at its ends wants every one.
+constexpr std::size_t kFewestDense = 150;
+
 }  // namespace
 
 bool is_crowded(const StretchPath& path, double from, double to, std::size_t points) {
@@ -16,6 +19,7 @@ bool is_crowded(const StretchPath& path, double from, double to, std::size_t poi
 }
 
 bool is_dense(const StretchPath& path, double from, double to, std::size_t points) {
+  if (points < kFewestDense) return false;
   const std::size_t legs = path.leg_at(to) - path.leg_at(from) + 1;
   return kDense * static_cast<double>(legs) > static_cast<double>(points) && !is_crowded(path, from, to, points);
 }

@@ -10,7 +10,8 @@ namespace kcs::planning {
 // Sharp corners follow each other within a few of so many points between two ways, mm.
 bool is_crowded(const StretchPath& path, double from, double to, std::size_t points);
 
-// Legs follow each other within a few of so many points between two ways, mm, and their corners are not crowded.
+// Legs follow each other within a few of so many points between two ways, mm, their corners are not crowded, and the
+// points are many.
 bool is_dense(const StretchPath& path, double from, double to, std::size_t points);
 
 }  // namespace kcs::planning

@@ -24,6 +24,7 @@ TEST(Density, SmoothLegsOfFewPointsAreDense) {
   const Case smooth(2);
   EXPECT_TRUE(smooth.dense(5 * Case::kLegs));
   EXPECT_FALSE(smooth.dense(20 * Case::kLegs));
+  EXPECT_FALSE(smooth.dense(2 * Case::kLegs));  // few in all
   EXPECT_FALSE(smooth.crowded(5 * Case::kLegs));
 }
 
