@@ -42,6 +42,7 @@ net ticks kcs-player.ticks => sampler.0.pin.4
 addf sampler.0 servo-thread
 )";
 
+// With all that HAL's user needs, who may not be allowed to enter the folder of the sources.
 std::string make_folder() {
   std::string folder = "/tmp/kcs-hal-XXXXXX";
   if (!mkdtemp(folder.data())) throw std::runtime_error("no folder for HAL");
@@ -53,6 +54,7 @@ std::string make_folder() {
   fs::copy_file(KCS_HAL_MODULE, folder + "/modules/kcs_player.so");
   fs::copy_file(KCS_HAL_FEEDER, folder + "/feeder");
   fs::copy_file(KCS_SOURCE "/client/gateway/hal/simulation.hal", folder + "/machine.hal");
+  fs::copy_file(KCS_SOURCE "/tests/system/hal_machine.sh", folder + "/run");
   std::ofstream(folder + "/record.hal") << kRecord;
   return folder;
 }
@@ -86,7 +88,7 @@ std::optional<std::string> HalMachine::missing() {
 }
 
 HalMachine::HalMachine() : folder_(make_folder()) {
-  hal_.emplace(std::vector<std::string>{KCS_SOURCE "/tests/system/hal_machine.sh", folder_, kUser});
+  hal_.emplace(std::vector<std::string>{folder_ + "/run", folder_, kUser});
   if (hal_->read_line() != "ready") {
     throw std::runtime_error("HAL does not come up: " + hal_->errors() + text_of(folder_ + "/log"));
   }
