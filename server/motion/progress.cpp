@@ -1,7 +1,10 @@
 #include "server/motion/progress.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+
+#include "server/motion/polynomial.h"
 
 namespace kcs::motion {
 namespace {
@@ -55,7 +58,22 @@ Place Progress::at(double time) const {
     }
   }
   if (from.run != to.run) to = {from.run, path_->way_to(run(from.run).last + 1)};
-  return place(nearest(phase_.at(time), from, to));
+  return place({from.run, std::min(std::max(from.way, farthest(from.run, early, time)), to.way)});
+}
+
+// The tool may go back along a run for a moment; the place does not.
+double Progress::farthest(std::uint32_t index, double early, double time) const {
+  const Run& followed = run(index);
+  const Line& line = followed.line;
+  const Vector& along = line.direction();
+  const std::array<double, 4> speed{phase_.start.velocity.dot(along), phase_.start.acceleration.dot(along),
+                                    phase_.jerk.dot(along) / 2, 0};
+  const auto way_at = [&](double t) { return (phase_.at(t).position - line.from()).dot(along); };
+  double way = std::max(way_at(early), way_at(time));
+  for (const double turn : sign_changes(speed, time)) {
+    if (turn > early) way = std::max(way, way_at(turn));
+  }
+  return path_->way_to(followed.first) + way;
 }
 
 // The segments up to this one.

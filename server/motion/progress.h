@@ -55,6 +55,8 @@ class Progress {
   void gather(std::uint32_t last);
   void leave_behind(std::uint32_t first);
   Spot nearest(const State& state, const Spot& from, const Spot& to) const;
+  // The way of the farthest place along a run between two times of the phase, mm.
+  double farthest(std::uint32_t run, double early, double time) const;
   Place place(const Spot& spot) const;
   const Run& run(std::uint32_t index) const { return runs_[index - first_run_]; }
 

@@ -110,6 +110,17 @@ TEST(Progress, StaysWhereTheToolRestsOrDriftsBack) {
   expect_place(progress.at(1), 15, 1);
 }
 
+TEST(Progress, StaysWhileTheToolGoesBackForAMoment) {
+  const Path path = path_of({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}});
+  Progress progress(path);
+  Phase back{.duration = 3, .start = {.position = {2, 0, 0}}, .segments = {0, 1}};
+  back.start.velocity = {-1, 0, 0};
+  back.start.acceleration = {1, 0, 0};
+  progress.follow(back);
+  for (const double time : {0.0, 0.5, 1.0, 2.0}) expect_place(progress.at(time), 2, 0);
+  expect_place(progress.at(3), 3.5, 0);
+}
+
 TEST(Progress, IsNotTakenInByTheWayBackBesideTheWayThere) {
   // A hairpin, and a tool between its sides, nearer to the way back.
   const Path path = path_of({{0, 0, 0}, {10, 0, 0}, {10, 1, 0}, {0, 1, 0}});
