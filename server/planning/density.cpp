@@ -1,5 +1,7 @@
 #include "server/planning/density.h"
 
+#include "server/planning/sharp_turns.h"
+
 namespace kcs::planning {
 namespace {
 
@@ -14,7 +16,8 @@ constexpr std::size_t kFewestDense = 150;
 bool is_crowded(const StretchPath& path, double from, double to, std::size_t points) {
   std::size_t sharp = 0;
   const std::size_t last = path.leg_at(to);
-  for (std::size_t leg = path.leg_at(from); leg < last; ++leg) sharp += path.may_be_missed(leg) ? 1 : 0;
+  SharpTurns turns;
+  for (std::size_t leg = path.leg_at(from); leg <= last; ++leg) sharp += turns.before(path.legs()[leg]) ? 1 : 0;
   return kCrowd * static_cast<double>(sharp) > static_cast<double>(points);
 }
 

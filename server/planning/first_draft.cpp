@@ -12,6 +12,8 @@ constexpr double kSlowest = 1e-3;   // mm/s
 constexpr double kStraight = 1e-6;  // |D| of a corner that is none
 // A corner's turn is spread over so many tolerances of the way at least.
 constexpr double kSpread = 4;
+// How much the path turns is seen over so many tolerances of the way on either side: a jog of less is hardly a corner.
+constexpr double kSeen = 2;
 // What the search begins with: points are held firmly enough to stay near to corners.
 constexpr double kPlace = 1e-3, kJerk = 1, kAcceleration = 1e-4;
 
@@ -68,11 +70,20 @@ class Draft {
   // At the end of the leg: that of a corner with interrupted acceleration, or of a bend if it is one of many.
   double corner_speed(std::size_t leg) const {
     const Leg &in = path_.legs()[leg], &out = path_.legs()[leg + 1];
-    const double turn = std::max(kStraight, (out.direction - in.direction).norm());
-    const double tolerance = std::min(in.tolerance, out.tolerance);
+    const double tolerance = std::min(in.tolerance, out.tolerance), seen = kSeen * tolerance;
+    const double turn = std::max(kStraight, turn_around(leg, seen));
     const double time = std::cbrt(6 * tolerance / (turn * jerk_));
-    const double length = (in.length + out.length) / 2 + kSpread * tolerance;
+    const double length = std::max(seen, (in.length + out.length) / 2) + kSpread * tolerance;
     return std::min({jerk_ * time * time / turn, std::sqrt(acceleration_ * length / turn), in.feed, out.feed});
+  }
+
+  // |D| of the corner at the end of the leg, if only so much of the path is seen on either side, mm.
+  double turn_around(std::size_t leg, double seen) const {
+    const double way = path_.way(leg + 1);
+    const auto at = [&](double place) { return path_.at(path_.leg_at(place, leg), place); };
+    const Vector& corner = path_.corners()[leg + 1];
+    const Vector before = corner - at(way - seen), after = at(way + seen) - corner;
+    return (after.normalized() - before.normalized()).norm();
   }
 
   MotionDraft sample() const {

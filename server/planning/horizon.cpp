@@ -17,9 +17,9 @@ constexpr double kMostLegs = 20'000;
 
 // A leg of no more steps than this may be part of a dense stretch, whose steps are longer.
 constexpr double kDenseSteps = 6;
-// A corner that turns by more than this, as |D|, is sharp: it costs so many steps more than what the feed asks for.
-// Sections of very many points would take long to plan, and hardly be found.
-constexpr double kSharp = 0.3, kCornerSteps = 8;
+// A sharp corner costs so many steps more than what the feed asks for. Sections of very many points would take long to
+// plan, and hardly be found.
+constexpr double kCornerSteps = 8;
 
 // From the feed, along the axes' slowest direction, mm.
 double stopping_way(double feed, const motion::AxisLimits& limits) {
@@ -45,7 +45,6 @@ void Horizon::see(const Leg& leg) {
   ++legs_;
   way_ += leg.length;
   steps_ += steps_of(leg);
-  direction_ = leg.direction;
   if (ahead_) return;
   const auto seen = static_cast<double>(legs_);
   ahead_ = (steps_ >= share_ * settled_ * kSettledSteps && seen >= share_ * kSettledLegs) || seen >= share_ * kMostLegs;
@@ -55,12 +54,11 @@ void Horizon::see(const Leg& leg) {
   stopping_way_ = stopping_way(leg.feed, limits_);
 }
 
-double Horizon::steps_of(const Leg& leg) const {
+double Horizon::steps_of(const Leg& leg) {
   const double tolerance = leg.tolerance > 0 ? leg.tolerance : range::kMaxTolerance;
   const double time = leg.length / leg.feed, steps = time / step_of_time(tolerance, limits_);
   const double at_feed = steps > kDenseSteps ? steps : time / dense_step_of_time(tolerance, limits_);
-  const bool sharp = legs_ > 1 && (leg.direction - direction_).squaredNorm() > kSharp * kSharp;
-  return at_feed + (sharp ? kCornerSteps : 0);
+  return at_feed + (turns_.before(leg) ? kCornerSteps : 0);
 }
 
 bool Horizon::beyond() const {

@@ -5,6 +5,7 @@
 
 #include "server/motion/limits.h"
 #include "server/planning/leg_queue.h"
+#include "server/planning/sharp_turns.h"
 
 namespace kcs::planning {
 
@@ -29,17 +30,17 @@ class Horizon {
  private:
   void see(const Leg& leg);
   // Of time, with the corner before the leg.
-  double steps_of(const Leg& leg) const;
+  double steps_of(const Leg& leg);
   bool beyond() const;
 
   motion::AxisLimits limits_;
   double share_, settled_;
   std::size_t at_least_;
   std::size_t legs_ = 0, until_ = 0;
-  bool ahead_ = false;                                 // what may be settled has come; the rest is looked at
-  double steps_ = 0, way_ = 0;                         // steps of time; mm
-  double stopping_way_ = 0;                            // mm
-  motion::Vector direction_ = motion::Vector::Zero();  // of the last leg seen
+  bool ahead_ = false;          // what may be settled has come; the rest is looked at
+  double steps_ = 0, way_ = 0;  // steps of time; mm
+  double stopping_way_ = 0;     // mm
+  SharpTurns turns_;
 };
 
 }  // namespace kcs::planning

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "server/planning/corner_geometry.h"
+#include "server/planning/sharp_turns.h"
 #include "server/planning/stopped.h"
 
 namespace kcs::planning {
@@ -14,9 +15,6 @@ constexpr double kAround = 6;
 
 // Another place may be nearer although the path leads away at first: it is looked for so many tolerances away.
 constexpr double kDetour = 3;
-
-// Corners that turn less, as |D|, are passed near enough if the tolerance is kept.
-constexpr double kSharp = 0.3;
 
 // The square of the tangent of half the angle between two directions; +infinity if they are opposite.
 double half_tangent_square(const Vector& from, const Vector& to) {
@@ -54,7 +52,7 @@ void StretchPath::find_what_may_be_missed(const std::stop_token& stop) {
   may_be_missed_.assign(reaches_.size(), false);
   for (std::size_t i = 0; i < reaches_.size(); ++i) {
     throw_if_stopped(stop);
-    if ((legs_[i + 1].direction - legs_[i].direction).squaredNorm() < kSharp * kSharp) continue;
+    if (!is_sharp(legs_[i].direction, legs_[i + 1].direction)) continue;
     const double reach = reaches_[i];
     for (std::size_t k = i; k < reaches_.size() && ends_[k + 1] <= ends_[i + 1] + reach; ++k) may_be_missed_[k] = true;
     for (std::size_t k = i; k-- > 0 && ends_[k + 1] >= ends_[i + 1] - reach;) may_be_missed_[k] = true;
@@ -128,12 +126,14 @@ Projection StretchPath::project(const Vector& point, std::size_t near) const {
   return best;
 }
 
-std::pair<std::size_t, std::size_t> StretchPath::legs_between(double from, double to) const {
-  const auto leg_at = [&](double way) {
-    const auto after = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, way);
-    return static_cast<std::size_t>(after - ends_.begin()) - 1;
+std::pair<std::size_t, std::size_t> StretchPath::legs_between(double from, double to, std::size_t near) const {
+  const auto go_to = [&](double way) {  // where two legs meet, the second
+    while (near > 0 && ends_[near] > way) --near;
+    while (near + 1 < legs_.size() && ends_[near + 1] <= way) ++near;
+    return near;
   };
-  return {leg_at(from - kAround * tolerance_), leg_at(to + kAround * tolerance_)};
+  const std::size_t first = go_to(from - kAround * tolerance_);
+  return {first, go_to(to + kAround * tolerance_)};
 }
 
 double StretchPath::feed_between(double from, double to) const {

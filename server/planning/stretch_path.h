@@ -64,8 +64,8 @@ class StretchPath {
   // The place nearest to a point, from origin(), among those that are nearer and nearer from a leg on.
   Projection project(const Vector& point, std::size_t near) const;
 
-  // The first and the last leg that a motion may follow between two ways, mm.
-  std::pair<std::size_t, std::size_t> legs_between(double from, double to) const;
+  // The first and the last leg that a motion may follow between two ways, mm. Searches from a leg near them.
+  std::pair<std::size_t, std::size_t> legs_between(double from, double to, std::size_t near = 0) const;
 
   // The least feed of the legs that a motion may follow between two ways, mm/s.
   double feed_between(double from, double to) const;

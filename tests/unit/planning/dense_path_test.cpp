@@ -122,6 +122,22 @@ TEST(DensePath, DoesNotBrakeWhereSectionsMeet) {
   }
 }
 
+// As CAM software leaves them where it joins what it reckoned apart.
+TEST(DensePath, JogsFarBelowTheToleranceCostNoTime) {
+  Toolpath smooth, jogged;
+  for (int i = 1; i <= 2000; ++i) {
+    const double angle = i * 0.2 / 40;  // on a circle of 40 mm
+    const Vector end(40 * std::sin(angle), 40 - 40 * std::cos(angle), 0);
+    smooth.segments.push_back({.end = end, .feed = kFeed, .tolerance = kTolerance});
+    jogged.segments.push_back(smooth.segments.back());
+    if (i % 3 > 0) continue;
+    jogged.segments.push_back(jogged.segments.back());
+    jogged.segments.back().end += 3e-4 * Vector(std::sin(angle), -std::cos(angle), 0);
+  }
+  const auto time = [](const Toolpath& path) { return plan(path, dense_options()).summary.cycle_time; };
+  EXPECT_LT(time(jogged), 1.002 * time(smooth));
+}
+
 // What suits one kind of path must not be kept where the next kind begins: it would cost more than a stop there.
 TEST(DensePath, IsNoSlowerBesideSharpCorners) {
   std::mt19937 random(5);

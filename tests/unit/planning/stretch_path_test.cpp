@@ -105,6 +105,7 @@ TEST(StretchPath, KnowsTheLegsAroundAWay) {
   EXPECT_EQ(c.stretch.legs_between(2.5, 3.5), Legs(1, 4));
   EXPECT_EQ(c.stretch.legs_between(-3, -2), Legs(0, 0));
   EXPECT_EQ(c.stretch.legs_between(8, 9), Legs(5, 5));
+  for (const std::size_t near : {1u, 3u, 5u}) EXPECT_EQ(c.stretch.legs_between(2.5, 2.8, near), Legs(1, 3)) << near;
 }
 
 TEST(StretchPath, TakesTheLeastFeedAround) {
