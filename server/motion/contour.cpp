@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
-
-#include "server/motion/mitres.h"
 
 namespace kcs::motion {
 namespace {
@@ -101,13 +98,6 @@ double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, 
     time = until;
   }
   return search.bound;
-}
-
-double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, double resolution,
-                             double ignore_below) {
-  std::vector<double> mitres;
-  pass_mitres(phase, pieces, mitres);
-  return largest_contour_error(phase, pieces, mitres, resolution, ignore_below);
 }
 
 bool comes_within(const Curve& curve, const Vector& point, double distance) {

@@ -17,8 +17,6 @@ namespace kcs::motion {
 // away than the farthest of its Bézier points; halving the curve makes that bound as sharp as is wanted.
 double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, std::span<const double> mitres,
                              double resolution, double ignore_below);
-// The same, with the mitres found here.
-double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, double resolution, double ignore_below);
 
 // Whether the curve comes as near as `distance` (mm) to a point. What only a billionth of the curve does goes unseen.
 bool comes_within(const Curve& curve, const Vector& point, double distance);

@@ -36,7 +36,6 @@ CornerGeometry corner_geometry(const Leg& in, const Leg& out, const PlanOptions&
   corner.sum = in.direction + out.direction;
   corner.half_sine = corner.difference.norm() / 2;
   corner.half_cosine = corner.sum.norm() / 2;
-  corner.angle = 2 * std::atan2(corner.half_sine, corner.half_cosine);
   corner.straight = is_straight(corner, options.limits);
   const double tolerance = std::min(in.tolerance, out.tolerance);
   corner.tolerance = tolerance * kToleranceMargin;

@@ -1,6 +1,8 @@
 // Two legs that meet, and how far their corner may be cut.
 #pragma once
 
+#include <cmath>
+
 #include "server/planning/leg.h"
 #include "server/planning/options.h"
 
@@ -20,11 +22,12 @@ struct CornerGeometry {
   Vector sum = Vector::Zero();         // ts + te
   double half_sine = 0;                // sin(θ2/2) = |D|/2
   double half_cosine = 0;              // cos(θ2/2) = |ts + te|/2
-  double angle = 0;                    // θ2: 0 straight on, π reversal
   double tolerance = 0;                // the smaller of the legs', with a margin for rounding, mm
   double reach = 0;                    // how near the tool must come to the corner point, mm
   double cut = 0;                      // ε: the same with a margin for rounding; what smoothing may use
   bool straight = false;               // the direction changes by no more than rounding: nothing to smooth
+
+  double angle() const { return 2 * std::atan2(half_sine, half_cosine); }  // θ2: 0 straight on, π reversal
 };
 
 CornerGeometry corner_geometry(const Leg& in, const Leg& out, const PlanOptions& options);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "server/motion/contour.h"
+#include "server/motion/mitres.h"
 #include "server/planning/stopped.h"
 
 namespace kcs::planning {
@@ -62,8 +63,7 @@ void MotionShares::begin(const StretchPath& path, std::span<const StretchPiece> 
   first_corner_ = 0;
   reached_.assign(path.legs().size(), false);
   for (const StretchPiece& piece : settled) {
-    const auto [first, last] = path.legs_between(piece.from, piece.to);
-    pass_corners(path, piece.phase, first, last);
+    pass_corners(path, piece.phase, piece.first_leg, piece.last_leg);
   }
   while (reached_[first_corner_]) ++first_corner_;  // nothing comes near to the end of the last leg
 }
@@ -148,7 +148,7 @@ void MotionShares::measure_limits(const StretchPath& path, const motion::AxisLim
     const Vector first = points[j + 1] - points[j], second = first - first_before;
     // Of all pieces that it is part of.
     const double feed = feeds_[j] =
-        path.feed_between(spline.ways[std::max<std::size_t>(j, 2) - 2], spline.ways[std::min(size - 1, j + 3)]);
+        path.feed_between(spline.ways[std::max<std::size_t>(j, 1) - 1], spline.ways[std::min(size - 1, j + 2)]);
     speed_[j] = std::max(first.norm() / (feed * step), share_of(first, per_velocity));
     if (j > 0) acceleration_[j - 1] = share_of(second, per_acceleration);
     if (j > 1) {
@@ -195,20 +195,26 @@ double MotionShares::slower() const {
 bool MotionShares::verify_places(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline) {
   reached_.assign(path.legs().size(), false);
   bool well = true;
-  for (std::size_t j = 0; j < spline.pieces(); ++j) well &= verify_piece(path, limits, spline, j);
+  std::pair<std::size_t, std::size_t> legs;
+  for (std::size_t j = 0; j < spline.pieces(); ++j) {
+    legs = path.legs_between(spline.ways[j + 1], spline.ways[j + 2], legs.first);
+    well &= verify_piece(path, limits, spline, j, legs);
+  }
   return verify_corners(path, spline) && well;
 }
 
 bool MotionShares::verify_piece(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline,
-                                std::size_t piece) {
-  const auto [first, last] = path.legs_between(spline.ways[piece], spline.ways[piece + 3]);
+                                std::size_t piece, const std::pair<std::size_t, std::size_t>& followed) {
+  const auto [first, last] = followed;
   const auto legs = path.legs().subspan(first, last - first + 1);
   const motion::Phase phase = spline.phase(piece, Vector::Zero());
   double tolerance = legs[0].tolerance;
   for (const Leg& leg : legs) tolerance = std::min(tolerance, leg.tolerance);
   bool well = true;
-  const double error = motion::largest_contour_error(phase, path.pieces().subspan(first, legs.size()),
-                                                     kErrorResolution * tolerance, (1 - kErrorResolution) * tolerance);
+  const auto pieces = path.pieces().subspan(first, legs.size());
+  motion::pass_mitres(phase, pieces, mitres_);
+  const double error = motion::largest_contour_error(phase, pieces, mitres_, kErrorResolution * tolerance,
+                                                     (1 - kErrorResolution) * tolerance);
   if (!(error <= tolerance)) {
     well = false;
     raise(piece + 1, 2, kEmphasis * error / tolerance);

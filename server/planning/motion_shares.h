@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "server/motion/limits.h"
@@ -64,8 +65,9 @@ class MotionShares {
   void measure_corners(const StretchPath& path, TimeSpline& spline);
   void measure_limits(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline);
   void measure_haste(const motion::AxisLimits& limits, const TimeSpline& spline);
+  // `followed`: the first and the last leg.
   bool verify_piece(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline,
-                    std::size_t piece);
+                    std::size_t piece, const std::pair<std::size_t, std::size_t>& followed);
   void pass_corners(const StretchPath& path, const motion::Phase& phase, std::size_t first, std::size_t last);
   bool verify_corners(const StretchPath& path, const TimeSpline& spline);
   void raise(std::size_t from, std::size_t count, double share);
@@ -75,6 +77,7 @@ class MotionShares {
   std::vector<Vector> axis_jerk_;
   std::vector<double> feeds_;     // mm/s, where each speed belongs
   std::vector<double> drawn_to_;  // the ways that the points were drawn to
+  std::vector<double> mitres_;    // of the piece that is looked at
   double largest_place_ = 0;
   std::vector<bool> reached_;     // the corner at the end of each leg
   std::size_t first_corner_ = 0;  // that is not done with

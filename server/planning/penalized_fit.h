@@ -28,19 +28,26 @@ struct FitWeights {
 class PenalizedFit {
  public:
   // As many weights as data; at least three places are more than 0. Overwrites result, which may not be data.
-  void solve(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result);
+  // alike: each jerk weight is the same for all axes; then one system is solved for all of them.
+  void solve(const FitWeights& weights, bool alike, std::span<const Vector> data, std::vector<Vector>& result);
 
  private:
   using Axes = Eigen::Array3d;
-  // A row of the factors of each axis: the inverse of its diagonal, and its entries 1, 2 and 3 before the diagonal.
+  // A row of the factors, of all axes or of each: the inverse of its diagonal, and its entries 1, 2 and 3 before the
+  // diagonal.
+  template <class Entry>
   struct Row {
-    Axes inverse = Axes::Zero(), l1 = inverse, l2 = inverse, l3 = inverse;
+    Entry inverse, l1, l2, l3;
   };
 
-  void substitute_forward(const FitWeights& weights, std::span<const Vector> data, std::vector<Vector>& result);
-  void substitute_backward(std::vector<Vector>& result) const;
+  template <class Entry>
+  static void substitute_forward(const FitWeights& weights, std::span<const Vector> data, std::vector<Row<Entry>>& rows,
+                                 std::vector<Vector>& result);
+  template <class Entry>
+  static void substitute_backward(const std::vector<Row<Entry>>& rows, std::vector<Vector>& result);
 
-  std::vector<Row> rows_;
+  std::vector<Row<double>> rows_;
+  std::vector<Row<Axes>> axes_rows_;
 };
 
 }  // namespace kcs::planning

@@ -122,7 +122,7 @@ void Section::record_joint(std::size_t stage, double exit_lost, CornerLog& log) 
   log.add({.segment = corner.in.segments.last,
            .line = path_.joints[leg].line,
            .point = corner.in.end,
-           .angle = corner.angle,
+           .angle = corner.angle(),
            .strategy = motion.speed > 0 ? cornering.strategy() : CornerStrategy::kExactStop,
            .speed = motion.speed,
            .boundary_acceleration = motion.acceleration,
@@ -154,9 +154,10 @@ std::optional<Section::Cut> Section::cut_inside(std::size_t stage, std::size_t l
   if (pieces.size() <= first + kFewestLeft) return {};
   const auto found = pieces.subspan(first, pieces.size() - kFewestLeft - first);
   const double limit = stretch.path().way(leg - corners_.stages[stage].first_leg + 1);
-  const auto cut = std::ranges::upper_bound(found, limit, {}, &StretchPiece::to);
-  if (cut == found.begin()) return {};
-  return Cut{stage, first + static_cast<std::size_t>(cut - found.begin())};
+  // What goes on from there begins with the points of the next piece: that one must not leave the leg either.
+  const auto beyond = std::ranges::upper_bound(found, limit, {}, &StretchPiece::to) - found.begin();
+  if (beyond < 2) return {};
+  return Cut{stage, first + static_cast<std::size_t>(beyond) - 1};
 }
 
 Section::Cut Section::cut_after(const Cut& cut) const {
@@ -174,7 +175,7 @@ Section::Cut Section::cut_after(const Cut& cut) const {
   const std::size_t from = cut.pieces > 0 ? cut.pieces : stretch.first_piece();
   const std::size_t followed = (pieces.size() - from) / kFollowed, to = from + followed;
   if (followed < kFewest) return {last + 1, 0};
-  const bool on_last_leg = stretch.path().leg_at(pieces[to - 1].to) + 1 == stretch.path().legs().size();
+  const bool on_last_leg = stretch.path().leg_at(pieces[to].to) + 1 == stretch.path().legs().size();
   return on_last_leg ? Cut{last + 1, 0} : Cut{last, to};
 }
 
@@ -204,7 +205,7 @@ Section::Rest Section::rest_of_stretch(const Cut& cut) const {
   Rest rest{.first_leg = leg,
             .entry = {.need = entry_.need, .rests = false, .begun = stretch.go_on(cut.pieces, first)}};
   if (leg > 0) rest.entry.need = corners_.needs[leg - 1].after;
-  rest.entry.begun->joint = stretch.path().leg_at(stretch.pieces()[cut.pieces - 1].to) - first;
+  rest.entry.begun->joint = stretch.path().leg_at(stretch.pieces()[cut.pieces].to) - first;
   return rest;
 }
 

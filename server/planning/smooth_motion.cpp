@@ -120,6 +120,9 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   if (range_.exact) speeds_ = range_.at_most;
   const double steps = static_cast<double>(ways.size()) * draft.step / step_;
   mode_.crowded = is_crowded(path_, range_.from, range_.to, static_cast<std::size_t>(steps));
+  if (!mode_.crowded) {
+    for (Vector& jerk : weights_.jerk) jerk.setConstant(jerk.maxCoeff());
+  }
   shares_.begin(path_, range_.settled, stop_);
   change_step(spline_.ways.size() < kFewestToCoarsen ? step_ : kCoarser * step_);
   const double longest = kMostGrowth * spline_.step * static_cast<double>(spline_.ways.size());
@@ -230,7 +233,7 @@ void SmoothMotion::fit() {
     data_[i] = path_.at(leg, drawn_to_[i]);
   }
   if (range_.before != nullptr) std::copy_n(start_points_.begin(), 3, data_.begin());
-  fit_.solve(weights_, data_, spline_.points);
+  fit_.solve(weights_, !mode_.crowded, data_, spline_.points);
   for (std::size_t i = 0; i < 3; ++i) {
     spline_.points[i] = data_[i];
     spline_.points[size - 1 - i] = data_[size - 1 - i];

@@ -80,6 +80,7 @@ void Stretch::search(const MotionRange& range, MotionDraft draft) {
   pieces_.resize(first_piece());
   found_ = motion.spline();
   append_pieces(found_, pieces_);
+  find_legs(path_, std::span(pieces_).subspan(first_piece()));
   speeds_ = motion.speeds();
   weights_ = motion.weights();
 }
@@ -121,15 +122,15 @@ MotionDraft Stretch::draft(const MotionRange& range) const {
 motion::Phase Stretch::phase(std::size_t piece) const {
   motion::Phase phase = pieces_[piece].phase;
   phase.start.position += path_.origin();
-  const auto [first, last] = path_.legs_between(pieces_[piece].from, pieces_[piece].to);
-  phase.segments = {path_.legs()[first].segments.first, path_.legs()[last].segments.last};
+  phase.segments = {path_.legs()[pieces_[piece].first_leg].segments.first,
+                    path_.legs()[pieces_[piece].last_leg].segments.last};
   return phase;
 }
 
 BegunStretch Stretch::go_on(std::size_t pieces, std::size_t leg) const {
   const double start = path_.start_of(leg), middle = (path_.way(leg) + path_.way(leg + 1)) / 2;
   std::size_t from = pieces - 1;
-  while (from > 0 && pieces_[from].begin > middle) --from;
+  while (from > 0 && pieces_[from].from > middle) --from;
   const std::size_t found = pieces - first_piece();
   const auto next_three = [&](const auto& values) {
     return std::vector(values.begin() + static_cast<std::ptrdiff_t>(found),
@@ -145,7 +146,10 @@ BegunStretch Stretch::go_on(std::size_t pieces, std::size_t leg) const {
   for (StretchPiece& piece : result.settled) {
     piece.phase.start_time -= time;
     piece.phase.start.position += path_.origin();
-    for (double* way : {&piece.from, &piece.to, &piece.begin, &piece.end}) *way -= start;
+    piece.from -= start;
+    piece.to -= start;
+    piece.first_leg -= std::min(piece.first_leg, leg);
+    piece.last_leg -= std::min(piece.last_leg, leg);
   }
   for (Vector& point : result.last.points) point += path_.origin();
   for (double& way : result.last.ways) way -= start;

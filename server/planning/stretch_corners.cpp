@@ -1,11 +1,11 @@
 #include "server/planning/stretch_corners.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
 
-#include "server/motion/contour.h"
 #include "server/planning/corner_geometry.h"
 #include "server/planning/stopped.h"
 
@@ -25,10 +25,11 @@ class Walk {
 
   // When the motion is at this way; ways must not fall from call to call.
   double time_at(double way) {
-    while (piece_ + 1 < pieces_.size() && pieces_[piece_].end < way) ++piece_;
-    const auto& [phase, from, to, begin, end] = pieces_[piece_];
-    const double share = end > begin ? std::clamp((way - begin) / (end - begin), 0.0, 1.0) : 0;
-    return phase.start_time + share * phase.duration;
+    while (piece_ + 1 < pieces_.size() && pieces_[piece_].to < way) ++piece_;
+    const StretchPiece& piece = pieces_[piece_];
+    const double length = piece.to - piece.from;
+    const double share = length > 0 ? std::clamp((way - piece.from) / length, 0.0, 1.0) : 0;
+    return piece.phase.start_time + share * piece.phase.duration;
   }
 
  private:
@@ -71,18 +72,16 @@ class Passing {
  public:
   // settled: how many of its pieces are.
   Passing(const Stretch& stretch, std::size_t settled)
-      : path_(stretch.path()), pieces_(stretch.pieces().first(settled)) {
-    for (const StretchPiece& piece : pieces_) legs_.push_back(path_.legs_between(piece.from, piece.to));
-  }
+      : path_(stretch.path()), pieces_(stretch.pieces().first(settled)) {}
 
   // Where the motion is nearest to the end of a leg.
   Nearest to_end_of(std::size_t leg) {
     const Vector& point = path_.corners()[leg + 1];
-    while (first_ + 1 < pieces_.size() && legs_[first_].second <= leg) ++first_;
+    while (first_ + 1 < pieces_.size() && pieces_[first_].last_leg <= leg) ++first_;
     Nearest best;
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = first_;
-    for (std::size_t j = first_; j < pieces_.size() && legs_[j].first <= leg; ++j) {
+    for (std::size_t j = first_; j < pieces_.size() && pieces_[j].first_leg <= leg; ++j) {
       const double distance = std::min((at_knot(j) - point).squaredNorm(), (at_knot(j + 1) - point).squaredNorm());
       if (distance >= least) continue;
       least = distance;
@@ -91,7 +90,7 @@ class Passing {
     least = std::numeric_limits<double>::infinity();
     // A knot may be the nearest of all, but a place in the piece on either side of it nearer still.
     for (std::size_t j = std::max(first_, nearest > 0 ? nearest - 1 : 0); j <= nearest + 1 && j < pieces_.size(); ++j) {
-      if (legs_[j].first > leg) break;
+      if (pieces_[j].first_leg > leg) break;
       const motion::State state = nearest_in(pieces_[j].phase, point);
       const double distance = (state.position - point).squaredNorm();
       if (distance >= least) continue;
@@ -104,13 +103,11 @@ class Passing {
  private:
   // From the legs that the piece follows, mm.
   double error(const Vector& position, std::size_t piece) const {
-    const auto& corners = path_.corners();
-    const auto [first, last] = legs_[piece];
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t leg = first; leg <= last; ++leg) {
-      least = std::min(least, motion::distance_to_segment(position, corners[leg], corners[leg + 1]));
+    for (std::size_t leg = pieces_[piece].first_leg; leg <= pieces_[piece].last_leg; ++leg) {
+      least = std::min(least, path_.pieces()[leg].line.square_distance(position));
     }
-    return least;
+    return std::sqrt(least);
   }
 
   // Where piece j begins, or the last one ends.
@@ -121,14 +118,14 @@ class Passing {
 
   const StretchPath& path_;
   std::span<const StretchPiece> pieces_;
-  std::vector<std::pair<std::size_t, std::size_t>> legs_;  // the first and the last one of each piece
-  std::size_t first_ = 0;                                  // piece
+  std::size_t first_ = 0;  // piece
 };
 
 double time_at_feed(const Stretch& stretch, std::size_t from, std::size_t to) {
   double time = 0;
-  for (const auto& [phase, first, last, begin, end] : stretch.pieces().subspan(from, to - from)) {
-    const double feed = stretch.path().feed_between(first, last);
+  for (const StretchPiece& piece : stretch.pieces().subspan(from, to - from)) {
+    const motion::Phase& phase = piece.phase;
+    const double feed = stretch.path().feed_between(piece.from, piece.to);
     if (phase.at(phase.duration / 2).velocity.norm() >= kAtFeed * feed) time += phase.duration;
   }
   return time;
@@ -143,10 +140,9 @@ std::size_t first_unreported(const Stretch& stretch, std::size_t pieces) {
   const std::size_t corners = path.legs().size() - 1;
   if (pieces == 0) return 0;
   if (pieces == stretch.pieces().size()) return corners;
-  const StretchPiece& next = stretch.pieces()[pieces];
-  const std::size_t followed = path.legs_between(next.from, next.to).first;
+  const std::size_t followed = stretch.pieces()[pieces].first_leg;
   std::size_t corner = 0;
-  while (corner < followed && middle_of(path, corner + 1) <= stretch.pieces()[pieces - 1].end) ++corner;
+  while (corner < followed && middle_of(path, corner + 1) <= stretch.pieces()[pieces - 1].to) ++corner;
   return corner;
 }
 
@@ -170,7 +166,7 @@ StretchTimes add_corners(const Stretch& stretch, std::size_t from, std::size_t t
     corners.push_back({.segment = legs[i].segments.last,
                        .line = joints[first_leg + i].line,
                        .point = legs[i].end,
-                       .angle = geometry.angle,
+                       .angle = geometry.angle(),
                        .strategy = CornerStrategy::kOverlapping,
                        .speed = at.velocity.norm(),
                        .corner_distance = (at.position - point).norm(),

@@ -101,10 +101,13 @@ TEST_P(LongPaths, KeepEveryPromise) { keep_every_promise(long_case, GetParam(), 
 
 INSTANTIATE_TEST_SUITE_P(Long, LongPaths, testing::Range<std::uint64_t>(0, kLongShards));
 
-// A section ended in a tangle smaller than the tolerance, and a corner's record was written too soon.
+// A section ended in a tangle smaller than the tolerance; a corner's record was written too soon; a stretch went on
+// beyond the leg where it had to end; a record named what no phase of its corner did.
 TEST(PathsThatOnceFailed, KeepEveryPromise) {
   keep_every_promise(long_case, 133, 1);
   keep_every_promise(dense_case, 2359, 1);
+  keep_every_promise(dense_case, 491, 1);
+  keep_every_promise(long_case, 79, 1);
 }
 
 // Paths that go on from a motion and lead into one. Not every one can: then it says so.

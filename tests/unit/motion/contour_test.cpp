@@ -35,6 +35,13 @@ double sampled_contour_error(const Phase& phase, std::span<const Piece> pieces) 
   return largest;
 }
 
+// With the curve divided where it passes from piece to piece.
+double largest_contour_error(const Phase& phase, std::span<const Piece> pieces, double resolution) {
+  std::vector<double> mitres;
+  pass_mitres(phase, pieces, mitres);
+  return motion::largest_contour_error(phase, pieces, mitres, resolution, 0);
+}
+
 // Numbers between −1 and 1.
 class Random {
  public:
@@ -53,10 +60,10 @@ TEST(LargestContourError, MeasuresARoundedCornerFromAbove) {
     Phase phase{.duration = 1, .jerk = random.vector()};
     phase.start.position = Vector(-1, 0, 0);
     phase.start.velocity = Vector(1, random(), random());
-    const double sampled = sampled_contour_error(phase, pieces), found = largest_contour_error(phase, pieces, 1e-9, 0);
+    const double sampled = sampled_contour_error(phase, pieces), found = largest_contour_error(phase, pieces, 1e-9);
     EXPECT_GE(found, sampled - 1e-15);
     EXPECT_LE(found, sampled + 1e-3);
-    EXPECT_NEAR(found, largest_contour_error(phase, pieces, 1e-7, 0), 1.1e-7);
+    EXPECT_NEAR(found, largest_contour_error(phase, pieces, 1e-7), 1.1e-7);
   }
 }
 
@@ -68,11 +75,12 @@ TEST(LargestContourError, MeasuresAcrossManyPiecesInAnyOrderFromAbove) {
     const auto pieces = pieces_through(points);
     const Phase phase{
         .duration = 2, .start = {random.vector(), 2 * random.vector(), 2 * random.vector()}, .jerk = random.vector()};
-    const double sampled = sampled_contour_error(phase, pieces), found = largest_contour_error(phase, pieces, 1e-9, 0);
+    const double sampled = sampled_contour_error(phase, pieces), found = largest_contour_error(phase, pieces, 1e-9);
     EXPECT_GE(found, sampled - 1e-15);
     EXPECT_LE(found, sampled + 1e-2);
     // Where the curve is divided changes nothing.
-    EXPECT_NEAR(found, largest_contour_error(phase, pieces, std::vector<double>(pieces.size() - 1, 0), 1e-9, 0), 1e-9);
+    EXPECT_NEAR(found, motion::largest_contour_error(phase, pieces, std::vector<double>(pieces.size() - 1, 0), 1e-9, 0),
+                1e-9);
   }
 }
 
@@ -80,7 +88,7 @@ TEST(LargestContourError, IsNothingAcrossTheBordersOfPiecesOnALine) {
   const auto pieces = pieces_through({{0, 0, 0}, Vector(1, 1, 1) / 3, {1e4, 1e4, 1e4}});
   Phase phase{.duration = 1e4};
   phase.start.velocity = Vector(1, 1, 1);
-  EXPECT_LE(largest_contour_error(phase, pieces, 1e-12, 0), 1e-11);
+  EXPECT_LE(largest_contour_error(phase, pieces, 1e-12), 1e-11);
 }
 
 TEST(ComesWithin, KnowsTheNearestPlaceOfALine) {

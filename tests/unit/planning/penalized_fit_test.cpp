@@ -49,9 +49,9 @@ Eigen::VectorXd solved_densely(const FitWeights& weights, const std::vector<Vect
   return system.ldlt().solve(right);
 }
 
-void expect_agreement(PenalizedFit& fit, const FitWeights& weights, const std::vector<Vector>& data) {
+void expect_agreement(PenalizedFit& fit, const FitWeights& weights, bool alike, const std::vector<Vector>& data) {
   std::vector<Vector> found;
-  fit.solve(weights, data, found);
+  fit.solve(weights, alike, data, found);
   ASSERT_EQ(found.size(), data.size());
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const Eigen::VectorXd expected = solved_densely(weights, data, axis);
@@ -65,7 +65,10 @@ TEST(PenalizedFit, AgreesWithADenseSolver) {
   PenalizedFit fit;  // one for all: what the fit before left must not show
   for (const Eigen::Index size : {60, 4, 5, 9, 3}) {
     SCOPED_TRACE(size);
-    expect_agreement(fit, wild_weights(size), wild_data(size));
+    FitWeights weights = wild_weights(size);
+    expect_agreement(fit, weights, false, wild_data(size));
+    for (Vector& jerk : weights.jerk) jerk.setConstant(jerk.x());
+    expect_agreement(fit, weights, true, wild_data(size));
   }
 }
 
@@ -77,14 +80,14 @@ TEST(PenalizedFit, AgreesWithADenseSolverWhereWeightsAreZero) {
     if (i % 3 == 0) weights.acceleration[i] = 0;
     if (i % 5 == 2) weights.jerk[i] = Vector::Zero();
   }
-  expect_agreement(fit, weights, wild_data(30));
+  expect_agreement(fit, weights, false, wild_data(30));
 }
 
 TEST(PenalizedFit, KeepsTheDataWhereNothingIsPenalized) {
   const std::vector<Vector> data = wild_data(20);
   const std::vector<double> none(20, 0.0);
   std::vector<Vector> found;
-  PenalizedFit().solve({wild_weights(20).place, none, std::vector<Vector>(20, Vector::Zero())}, data, found);
+  PenalizedFit().solve({wild_weights(20).place, none, std::vector<Vector>(20, Vector::Zero())}, false, data, found);
   for (std::size_t i = 0; i < data.size(); ++i) EXPECT_LT((found[i] - data[i]).norm(), 1e-14) << i;
 }
 
@@ -96,7 +99,7 @@ TEST(PenalizedFit, GoesThroughThreePointsWithoutJerk) {
     place[held] = 1;
     data[held] = parabola(static_cast<double>(held));
   }
-  PenalizedFit().solve({place, std::vector(20, 0.0), std::vector<Vector>(20, Vector::Ones())}, data, found);
+  PenalizedFit().solve({place, std::vector(20, 0.0), std::vector<Vector>(20, Vector::Ones())}, true, data, found);
   for (std::size_t i = 0; i < data.size(); ++i) EXPECT_LT((found[i] - parabola(static_cast<double>(i))).norm(), 1e-6);
 }
 
@@ -105,7 +108,7 @@ TEST(PenalizedFit, HoldsFirmlyWhatIsHeldFirmly) {
   weights.place[17] = 1e9;
   const std::vector<Vector> data = wild_data(40);
   std::vector<Vector> found;
-  PenalizedFit().solve(weights, data, found);
+  PenalizedFit().solve(weights, true, data, found);
   EXPECT_LT((found[17] - data[17]).norm(), 1e-8);
   EXPECT_GT((found[30] - data[30]).norm(), 0.1);
 }
