@@ -219,9 +219,11 @@ bool MotionShares::verify_piece(const StretchPath& path, const motion::AxisLimit
     well = false;
     raise(piece + 1, 2, kEmphasis * error / tolerance);
   }
+  const double standing = -kStanding * limits.velocity.maxCoeff();
   for (std::size_t k = piece; k < piece + 3; ++k) {
     const Vector velocity = spline.velocity(k);
-    if (legs.size() > 1 || velocity.dot(legs[0].direction) >= -kStanding * limits.velocity.maxCoeff()) continue;
+    const auto goes_along = [&](const Leg& leg) { return velocity.dot(leg.direction) >= standing; };
+    if (std::any_of(legs.begin(), legs.end(), goes_along)) continue;
     well = false;
     raise(k, 2, kGoesBack);
   }

@@ -127,12 +127,15 @@ class Judge {
       EXPECT_LE(std::abs(state.acceleration[axis]), exists ? limits.acceleration[axis] * kLimit : 0);
       EXPECT_LE(std::abs(phase.jerk[axis]), exists ? limits.jerk[axis] * kLimit : 0);
     }
-    double feed = INFINITY, tolerance = 0;
+    double feed = INFINITY, tolerance = 0, forward = segments_.empty() ? 0 : -INFINITY;
     for (std::size_t i = phase.segments.first; i <= phase.segments.last && !segments_.empty(); ++i) {
       feed = std::min(feed, segments_.at(i).feed);
       tolerance = std::max(tolerance, segments_[i].tolerance);
+      const Vector& from = i == 0 ? problem_.path.start : segments_[i - 1].end;
+      forward = std::max(forward, state.velocity.dot((segments_[i].end - from).normalized()));
     }
     EXPECT_LE(state.velocity.norm(), feed * kLimit);
+    EXPECT_GE(forward, -1e-6 * limits.velocity.maxCoeff()) << "on segment " << phase.segments.first;
     EXPECT_TRUE(is_near(state.position, problem_.path, tolerance + 16 * rounding_, phase.segments.first))
         << "at " << state.position.transpose() << " on segment " << phase.segments.first;
   }

@@ -101,11 +101,12 @@ TEST_P(LongPaths, KeepEveryPromise) { keep_every_promise(long_case, GetParam(), 
 
 INSTANTIATE_TEST_SUITE_P(Long, LongPaths, testing::Range<std::uint64_t>(0, kLongShards));
 
-// A section ended in a tangle smaller than the tolerance; a corner's record was written too soon; a stretch went on
-// beyond the leg where it had to end; a record named what no phase of its corner did.
+// A section ended in a tangle smaller than the tolerance; a corner's record was written too soon; the tool went back by
+// some tolerances; a stretch went on beyond the leg where it had to end; a record named what no phase of its corner did.
 TEST(PathsThatOnceFailed, KeepEveryPromise) {
   keep_every_promise(long_case, 133, 1);
   keep_every_promise(dense_case, 2359, 1);
+  keep_every_promise(dense_case, 443, 1);
   keep_every_promise(dense_case, 491, 1);
   keep_every_promise(long_case, 79, 1);
 }

@@ -73,6 +73,23 @@ TEST_F(TravelTest, FindsAWayBackOnALine) {
   EXPECT_NE(fault().find("goes back"), std::string::npos) << fault();
 }
 
+// Whatever phases say of the segments that they follow.
+TEST_F(TravelTest, FindsAWayBackOverSeveralLines) {
+  points_ = {{0, 0, 0}, {5, 0, 0}, {10, 0.001, 0}, {15, 0.001, 0}};
+  moves_.go({0, 0, 0}, {8, 0, 0}, {0, 1});
+  moves_.go({8, 0, 0}, {6, 0, 0}, {0, 2});
+  moves_.go({6, 0, 0}, {15, 0.001, 0}, {0, 2});
+  EXPECT_NE(fault().find("goes back"), std::string::npos) << fault();
+}
+
+TEST_F(TravelTest, PassesAWayThereAndBackIfThatIsThePath) {
+  points_ = {{0, 0, 0}, {8, 0, 0}, {6, 0, 0}, {6, 4, 0}};
+  moves_.go({0, 0, 0}, {8, 0, 0}, {0, 1});
+  moves_.go({8, 0, 0}, {6, 0, 0}, {0, 2});
+  moves_.go({6, 0, 0}, {6, 4, 0}, {1, 2});
+  EXPECT_EQ(fault(), "");
+}
+
 TEST_F(TravelTest, FindsARestThatIsLeftOutOrTooShort) {
   points_ = {{0, 0, 0}, {10, 0, 0}, {20, 0, 0}};
   rests_ = {0.5};
