@@ -9,9 +9,9 @@ namespace {
 
 // What is settled at a time: so many steps of time (smooth_motion.h), and legs, at least. Both make planning wait for
 // the path, and the second keeps short programs whole.
-constexpr double kSettledSteps = 450, kSettledLegs = 64;
+constexpr double kSettledSteps = 600, kSettledLegs = 64;
 // What is looked at beyond it: so many steps and legs at least, and as often as far as the tool needs to stop.
-constexpr double kAheadSteps = 100, kAheadLegs = 8, kAheadStops = 3;
+constexpr double kAheadSteps = 80, kAheadLegs = 8, kAheadStops = 3;
 // Where legs are so short that these would be more, this is enough of them.
 constexpr double kMostLegs = 20'000;
 
@@ -19,7 +19,7 @@ constexpr double kMostLegs = 20'000;
 constexpr double kDenseSteps = 6;
 // A sharp corner costs so many steps more than what the feed asks for. Sections of very many points would take long to
 // plan, and hardly be found.
-constexpr double kCornerSteps = 8;
+constexpr double kCornerSteps = 12;
 
 // From the feed, along the axes' slowest direction, mm.
 double stopping_way(double feed, const motion::AxisLimits& limits) {

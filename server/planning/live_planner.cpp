@@ -172,7 +172,7 @@ std::unique_ptr<Section> LivePlanner::plan(const Horizon& horizon, CornerStrateg
   PlanOptions options = options_;
   options.strategy = strategy;
   const bool last = at_end(horizon.legs()), alone = last && !last_;
-  options.hurried = !last_ && !last;
+  if (!last) options.effort = last_ ? Effort::kUsual : Effort::kLeast;
   return Section::plan(legs_.first(horizon.legs()), entry_, last ? ends_.end_speed : 0, alone, options);
 }
 

@@ -21,8 +21,11 @@ inline constexpr double kAimSpeed = 1.006, kAimLimits = 1.02;
 // What a search for a motion is at.
 struct SearchMode {
   bool crowded = false;    // sharp corners follow each other within a few steps
+  bool brisk = false;      // it is for a dense part of a long path (density.h): its rounds count
   bool finishing = false;  // time is only stretched
   bool urgent = false;     // finishing has taken long
+  // Steps at the end that are beyond what will be settled: it matters little how long they take.
+  std::size_t spare_end = 0;
   // Steps beside an end whose speed is given, over which time is stretched little: there a slower tool would have to
   // brake at once.
   double held_start = 0, held_end = 0;

@@ -30,6 +30,13 @@ enum class CornerStrategy {
   kOverlapping,    // one of many in one smooth motion, see stretch.h; is never asked for
 };
 
+// What counts where cycle time can be had for planning time.
+enum class Effort {
+  kFull,   // the path ends with this part, or is short: cycle time
+  kUsual,  // this is one of many parts: both; up to 0.3 % of the cycle time is given for a fifth of the work
+  kLeast,  // the machine waits for this part: what is found sooner and is nearly as fast will do
+};
+
 struct PlanOptions {
   AxisLimits limits;
   ToleranceKind tolerance_kind = ToleranceKind::kContourError;
@@ -37,9 +44,8 @@ struct PlanOptions {
   // How to say that nobody wants the plan any more: planning then throws Stopped (stopped.h), within some milliseconds.
   // No part of what is asked for.
   std::stop_token stop;
-  // The machine waits for this part of the plan: what is found sooner and is nearly as fast will do. No part of what is
-  // asked for.
-  bool hurried = false;
+  // No part of what is asked for.
+  Effort effort = Effort::kFull;
 };
 
 }  // namespace kcs::planning

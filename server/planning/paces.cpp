@@ -15,6 +15,8 @@ constexpr double kStretchAway = 0.15;
 // While finishing, what is too fast is slowed down to this share of the feed, inverted: aimed at kAimSpeed, it comes
 // down to the feed in ever smaller steps.
 constexpr double kAimTooFast = 1.02;
+// The same of what is beyond an axis' acceleration, in a brisk search.
+constexpr double kAimTooMuch = 1.1;
 
 // Crowded corners take all of the jerk: at the end, only what is hardly inside the limits needs time.
 constexpr double kAimCrowded = 1.01;
@@ -48,23 +50,24 @@ void Paces::set(const MotionShares& shares, const SearchMode& mode) {
   const auto &speed = shares.haste(), &acceleration = shares.acceleration(), &jerk = shares.jerk();
   const std::size_t steps = speed.size();
   const double aim = mode.crowded && mode.finishing ? kAimCrowded : kAimLimits;
-  const auto aim_speed = [&](double share) { return mode.finishing && share > 1 ? kAimTooFast : kAimSpeed; };
-  const auto power = [&](double pace) { return mode.urgent ? sixth_power(pace) : square(sixth_power(pace)); };
-  const double least = power(mode.finishing ? 1 : kShortest), most = power(kLongest);
+  const double aim_beyond = mode.brisk && mode.finishing ? kAimTooMuch : aim;
+  const double aim_too_fast = mode.finishing ? kAimTooFast : kAimSpeed;
+  const double shortest = sixth_power(mode.finishing ? 1 : kShortest), longest = sixth_power(kLongest);
   wishes_.resize(steps + 4);
   for (std::size_t j = 0; j < steps; ++j) {
-    double wish =
-        std::max({sixth_power(aim_speed(speed[j]) * speed[j]),
-                  cube(aim * std::max(share_at(acceleration, j, 1), share_at(acceleration, j, 0))),
-                  square(aim * std::max({share_at(jerk, j, 2), share_at(jerk, j, 1), share_at(jerk, j, 0)}))});
+    const double fast = speed[j], bent = std::max(share_at(acceleration, j, 1), share_at(acceleration, j, 0)),
+                 jerky = std::max({share_at(jerk, j, 2), share_at(jerk, j, 1), share_at(jerk, j, 0)});
+    double wish = std::max({sixth_power((fast > 1 ? aim_too_fast : kAimSpeed) * fast),
+                            cube((bent > 1 ? aim_beyond : aim) * bent), square(aim * jerky)});
     if (mode.finishing) {
       const double away = std::max({shares.place()[j], shares.place()[j + 1], 1.0}) - 1;
       wish = std::max(wish, sixth_power(1 + kStretchAway * away));
     }
-    wish = std::min(std::max(wish, least), most);
+    const bool at_once = mode.urgent || (mode.finishing && j + mode.spare_end >= steps);
+    if (!at_once) wish = std::sqrt(wish);
+    wish = std::min(std::max(wish, shortest), longest);
     if (wish > 1) wish = 1 + (wish - 1) * freedom(j, steps, mode);
-    const double root = std::sqrt(wish);
-    wishes_[j + 2] = cube_root(mode.urgent ? root : std::sqrt(root));
+    wishes_[j + 2] = cube_root(std::sqrt(wish));
   }
   wishes_[0] = wishes_[1] = wishes_[2];
   wishes_[steps + 2] = wishes_[steps + 3] = wishes_[steps + 1];

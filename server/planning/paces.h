@@ -12,8 +12,8 @@ namespace kcs::planning {
 class Paces {
  public:
   // Every step longer or shorter as what it is part of asks for, smoothed over its neighbours; shorter only if the
-  // search is not finishing. While it is, also what is too far away from the path takes longer. Urgent: all that is
-  // asked for at once, not half of it.
+  // search is not finishing. While it is, also what is too far away from the path takes longer. What is urgent,
+  // and what is spare, gets all that it asks for at once, not half of it.
   void set(const MotionShares& shares, const SearchMode& mode);
 
   // Makes every run of longer steps longer by whole steps, or not at all if it asks for less than `least` of one more;

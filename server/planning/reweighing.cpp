@@ -14,7 +14,7 @@ constexpr double kAimPlace = 0.9, kAimPlaceCrowded = 0.97;
 // The change of a weight in one round: at least, at most. While finishing, weights ease little: what is settled should
 // not come up again.
 constexpr double kPlaceEase = 0.5, kPlaceEaseFinishing = 0.95, kPlacePress = 1.6;
-constexpr double kEase = 0.7, kEaseFinishing = 0.96, kPress = 1.4;
+constexpr double kEase = 0.7, kEaseFinishing = 0.96, kPress = 1.4, kPressBrisk = 1.7;
 
 // As shares of the hold time: how wide a point is held for its place at most, and for the speed's sake while searching,
 // finishing, and when that has taken long.
@@ -46,7 +46,7 @@ void reweigh(const MotionShares& shares, const SearchMode& mode, double hold_ste
   const std::size_t size = weights.place.size();
   const double widest = hold_over(kWidestHold * hold_steps), for_speed = hold_over(speed_hold(mode) * hold_steps);
   const double place_ease = mode.finishing ? kPlaceEaseFinishing : kPlaceEase;
-  const double ease = mode.finishing ? kEaseFinishing : kEase;
+  const double ease = mode.finishing ? kEaseFinishing : kEase, press = mode.brisk ? kPressBrisk : kPress;
   const double per_aim = 1 / (mode.crowded ? kAimPlaceCrowded : kAimPlace);
   const double least_jerk = mode.crowded ? kLeastJerkCrowded : kLeastJerk;
   const auto& haste = shares.haste();
@@ -62,14 +62,14 @@ void reweigh(const MotionShares& shares, const SearchMode& mode, double hold_ste
     const double share = kAimLimits * shares.jerk()[j];
     Eigen::Array3d pressure = kAimLimits * shares.axis_jerk()[j].array();
     if (!mode.crowded) pressure = mode.finishing ? share : std::sqrt(share);
-    weights.jerk[j] = (weights.jerk[j].array() * pressure.max(ease).min(kPress)).max(least_jerk).min(kMostJerk);
+    weights.jerk[j] = (weights.jerk[j].array() * pressure.max(ease).min(press)).max(least_jerk).min(kMostJerk);
   }
   for (std::size_t j = 0; j + 2 < size; ++j) {
     const double share = kAimLimits * shares.acceleration()[j];
     const bool settled = mode.finishing && share < kAimLimits;
     const double pressure = settled ? square(share) : square(cube(share));
     double& weight = weights.acceleration[j];
-    weight = bounded(weight * bounded(pressure, ease, kPress), kLeastAcceleration, kMostAcceleration);
+    weight = bounded(weight * bounded(pressure, ease, press), kLeastAcceleration, kMostAcceleration);
   }
 }
 

@@ -17,7 +17,7 @@ constexpr int kSearchingCoarsely = 20, kSearching = 28, kFinishing = 80;
 constexpr double kCoarser = 2;
 // Searching that has changed the duration by no more than this share in so many rounds, one after the other, goes on
 // with the shorter steps or, if it did, with finishing.
-constexpr double kSteady = 1.5e-3;
+constexpr double kSteady = 1.5e-3, kSteadyBrisk = 2.5e-3;
 constexpr int kSteadyRounds = 3;
 // In so many rounds the motion is too far from its end to look at it closely.
 constexpr int kRough = 9;
@@ -29,9 +29,9 @@ constexpr int kPatience = 5;
 // corners in another way.
 constexpr int kSettling = 3, kSettlingAgain = 2;
 // A motion this near to its limits is slowed down evenly rather than searched on.
-constexpr double kNearlyKept = 1.01;
-// When finishing has taken so many rounds, a hurried motion may be slowed down by more, by this much for each of so
-// many rounds.
+constexpr double kNearlyKept = 1.01, kNearlyKeptWithFullEffort = 1.001;
+// When finishing has taken so many rounds, what the machine waits for may be slowed down by more, by this much for each
+// of so many rounds.
 constexpr int kFirmRounds = 8, kEasingRounds = 8;
 constexpr double kEasing = 0.005;
 // The place weight of the first and the last three points.
@@ -40,6 +40,8 @@ constexpr double kHeld = 1e9;
 constexpr double kDrift = 0.5;
 // While finishing, the motion gets a step longer when its steps have asked for 1 − kEager of one.
 constexpr double kEager = 0.75;
+// The end of a brisk search that is spare, in steps: what planning looks at beyond what it settles (horizon.cpp).
+constexpr std::size_t kSpareEnd = 80;
 // What is at this share of the feed moves; what is at this share of such a speed stands.
 constexpr double kMoves = 0.1, kStands = 0.1;
 // A motion that has become so many times as long as its draft, which is slow already, leads nowhere.
@@ -120,6 +122,8 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   if (range_.exact) speeds_ = range_.at_most;
   const double steps = static_cast<double>(ways.size()) * draft.step / step_;
   mode_.crowded = is_crowded(path_, range_.from, range_.to, static_cast<std::size_t>(steps));
+  mode_.brisk = range_.dense && range_.effort != Effort::kFull;
+  mode_.spare_end = mode_.brisk ? kSpareEnd : 0;
   if (!mode_.crowded) {
     for (Vector& jerk : weights_.jerk) jerk.setConstant(jerk.maxCoeff());
   }
@@ -145,7 +149,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
     if (mode_.finishing && accept()) return !stands(draft.ways, draft.step);
     reweigh(shares_, mode_, hold_time_ / spline_.step, weights_);
     if (round < settled) continue;
-    steady = retime() < kSteady ? steady + 1 : 0;
+    steady = retime() < (mode_.brisk ? kSteadyBrisk : kSteady) ? steady + 1 : 0;
     if (steady < kSteadyRounds || mode_.finishing) continue;
     round = (round < kSearchingCoarsely ? kSearchingCoarsely : kSearching) - 1;
     steady = 0;
@@ -250,7 +254,8 @@ bool SmoothMotion::accept() {
 // What goes on from another motion must keep its step, and what ends at certain speeds too.
 double SmoothMotion::allowed() const {
   if (range_.before != nullptr || range_.exact) return 1 - motion::kRoundingShare;
-  return kNearlyKept + (range_.hurried ? eased_ : 0);
+  if (range_.effort == Effort::kFull) return kNearlyKeptWithFullEffort;
+  return kNearlyKept + (range_.effort == Effort::kLeast ? eased_ : 0);
 }
 
 // Whether the motion keeps all limits because it hardly moves where the draft does: a search can end like that where it

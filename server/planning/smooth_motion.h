@@ -28,7 +28,8 @@ struct MotionRange {
   double from = 0, to = 0;  // ways, mm
   EndSpeeds at_most;        // the greatest speeds there; what begins or ends at rest does so exactly
   bool exact = false;       // these are the speeds there
-  bool hurried = false;     // what is found sooner and is nearly as fast will do
+  Effort effort = Effort::kFull;
+  bool dense = false;  // its step is that of dense_step_of_time
   // The motion goes on from these three points, if there are any, whatever `from` and at_most.entry are…
   const TimeSpline* before = nullptr;
   // …and these are the pieces that lead there.

@@ -23,7 +23,7 @@ Values tail(const Values& values, std::size_t from) {
 Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& options, const EndSpeeds& at_most,
                  const BegunStretch* begun)
     : limits_(options.limits),
-      hurried_(options.hurried),
+      effort_(options.effort),
       stop_(options.stop),
       begun_(begun),
       path_(path, range, options),
@@ -35,10 +35,11 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
     for (StretchPiece& piece : pieces_) piece.phase.start.position -= path_.origin();
   }
   // Whatever suited the stretch so far: what follows may be of another kind.
-  const MotionRange searched = motion_range(at_most, false);
+  MotionRange searched = motion_range(at_most, false);
   MotionDraft begin = draft(searched);
   const double steps = static_cast<double>(begin.ways.size()) * begin.step / step_;
   if (is_dense(path_, searched.from, searched.to, static_cast<std::size_t>(steps))) {
+    searched.dense = dense_ = true;
     step_ = dense_step_of_time(path_.tolerance(), limits_);
     if (begun == nullptr) begin = draft(searched);
   }
@@ -51,7 +52,8 @@ MotionRange Stretch::motion_range(const EndSpeeds& at_most, bool exact) const {
           .to = path_.length(),
           .at_most = at_most,
           .exact = exact,
-          .hurried = hurried_,
+          .effort = effort_,
+          .dense = dense_,
           .before = begun ? &last_ : nullptr,
           .settled = pieces().first(first_piece())};
 }

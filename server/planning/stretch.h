@@ -47,11 +47,12 @@ class Stretch {
   MotionDraft draft(const MotionRange& range) const;
 
   AxisLimits limits_;
-  bool hurried_;
+  Effort effort_;
   std::stop_token stop_;
   const BegunStretch* begun_;
   StretchPath path_;
-  double step_;      // of what is searched, s
+  double step_;  // of what is searched, s
+  bool dense_ = false;
   TimeSpline last_;  // the last three settled points, if there are any
   std::vector<StretchPiece> pieces_;
   TimeSpline found_;  // from the last three settled points on
