@@ -1,6 +1,7 @@
 #include "server/motion/phase_code.h"
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -25,6 +26,10 @@ constexpr unsigned kMoreSegments = kMostSegments + 1;
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
+// Which of all its bits a NaN gets when it is calculated is left to the compiler, here and there: nothing is expected
+// then.
+std::uint64_t expected_bits(double expected) { return std::isnan(expected) ? 0 : bits(expected); }
+
 template <class Number>
 Number load(const std::byte* bytes) {
   Number number;
@@ -44,7 +49,7 @@ class Writer {
 
   void near(double expected, double value) {
     // Neighbouring doubles have neighbouring bits. The sign goes last: a small difference is a small number.
-    const std::uint64_t difference = bits(value) - bits(expected);
+    const std::uint64_t difference = bits(value) - expected_bits(expected);
     const std::uint64_t number = difference << 1 ^ (difference >> 63 != 0 ? kMasks[3] : 0);
     unsigned code = 0;
     while (number > kMasks[code]) ++code;
@@ -89,7 +94,7 @@ class Reader {
     const unsigned code = take(2);
     const std::uint64_t number = load<std::uint64_t>(next_) & kMasks[code];
     next_ += kLengths[code];
-    return std::bit_cast<double>(bits(expected) + (number >> 1 ^ -(number & 1)));
+    return std::bit_cast<double>(expected_bits(expected) + (number >> 1 ^ -(number & 1)));
   }
 
   double jerk(double last) {
