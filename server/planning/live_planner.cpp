@@ -142,19 +142,21 @@ Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const
 // Settles the first part of what is in sight.
 void LivePlanner::settle_next() {
   if (!verifier_) begin();
-  Horizon nearer(options_.limits, kNearer, last_ ? 1 : kFirst, shown_);
-  nearer.in_sight(legs_);
   std::unique_ptr<Section> apart;
   std::size_t until_apart = 0;
-  for (const Horizon& horizon : {horizon_, nearer}) {
+  const auto settle_up_to = [&](const Horizon& horizon) {
     auto section = plan(horizon, options_.strategy);
-    if (section && !section->taken_apart() && settle(std::move(section), horizon.until())) return;
+    if (section && !section->taken_apart() && settle(std::move(section), horizon.until())) return true;
     if (section && !apart) {
       apart = std::move(section);
       until_apart = horizon.until();
     }
-    if (nearer.legs() == horizon_.legs()) break;
-  }
+    return false;
+  };
+  if (settle_up_to(horizon_)) return;
+  Horizon nearer(options_.limits, kNearer, last_ ? 1 : kFirst, shown_);
+  nearer.in_sight(legs_);
+  if (nearer.legs() < horizon_.legs() && settle_up_to(nearer)) return;
   if (apart && settle(std::move(apart), until_apart)) return;
   if (follow_last()) return;
   // Smooth motions through many corners are found by trying; corners one by one are inside the limits by themselves.

@@ -35,13 +35,15 @@ constexpr double kStanding = 1e-10;
 double distance_near(const TimeSpline& spline, std::size_t k, const Vector& point) {
   double nearest = std::numeric_limits<double>::infinity();
   const std::size_t first = std::max<std::size_t>(k, 3) - 3, last = std::min(spline.points.size() - 3, k + 3);
-  Vector from = spline.knot(first);
+  Vector from = spline.knot(first) - point;
   for (std::size_t m = first + 1; m <= last; ++m) {
-    const Vector to = spline.knot(m);
-    nearest = std::min(nearest, motion::distance_to_segment(point, from, to));
+    const Vector to = spline.knot(m) - point, chord = to - from;
+    const double length = chord.squaredNorm();
+    const double share = length > 0 ? std::min(std::max(-from.dot(chord) / length, 0.0), 1.0) : 0;
+    nearest = std::min(nearest, (from + share * chord).squaredNorm());
     from = to;
   }
-  return nearest;
+  return std::sqrt(nearest);
 }
 
 // What makes shares of differences of points: one over the limit, in units of the step of time; 0 for an axis that is
