@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -14,8 +15,8 @@
 namespace kcs::planning {
 namespace {
 
-// Where no motion is found as far as the horizon, a nearer one is tried.
-constexpr double kNearer = 0.5;
+// Where no motion is found as far as the horizon, nearer ones are tried: these shares of it.
+constexpr std::array<double, 3> kNearer{0.5, 0.25, 0.125};
 // Less is settled at first, for the machine waits for it.
 constexpr double kFirst = 0.5;
 
@@ -142,21 +143,28 @@ Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const
 // Settles the first part of what is in sight.
 void LivePlanner::settle_next() {
   if (!verifier_) begin();
+  // A path that is seen whole is compared with taking its corners one by one (compare_corners); its parts are not.
+  const bool alone = at_end(horizon_.legs()) && !last_;
   std::unique_ptr<Section> apart;
   std::size_t until_apart = 0;
   const auto settle_up_to = [&](const Horizon& horizon) {
     auto section = plan(horizon, options_.strategy);
     if (section && !section->taken_apart() && settle(std::move(section), horizon.until())) return true;
-    if (section && !apart) {
+    if (section && !(apart && alone)) {
       apart = std::move(section);
       until_apart = horizon.until();
     }
     return false;
   };
   if (settle_up_to(horizon_)) return;
-  Horizon nearer(options_.limits, kNearer, last_ ? 1 : kFirst, shown_);
-  nearer.in_sight(legs_);
-  if (nearer.legs() < horizon_.legs() && settle_up_to(nearer)) return;
+  std::size_t tried = horizon_.legs();
+  for (const double share : std::span(kNearer).first(alone ? 1 : kNearer.size())) {
+    Horizon nearer(options_.limits, share, last_ ? 1 : kFirst, shown_);
+    nearer.in_sight(legs_);
+    if (nearer.legs() == tried) continue;
+    tried = nearer.legs();
+    if (settle_up_to(nearer)) return;
+  }
   if (apart && settle(std::move(apart), until_apart)) return;
   if (follow_last()) return;
   // Smooth motions through many corners are found by trying; corners one by one are inside the limits by themselves.

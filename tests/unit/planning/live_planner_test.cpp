@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "server/planning/invalid_input.h"
+#include "tests/property/random.h"
 #include "tests/unit/planning/paths.h"
 
 namespace kcs::planning {
@@ -77,6 +78,33 @@ TEST(LivePlanner, SettlesTheSameWhateverComesLater) {
     ASSERT_EQ(one.phases[i].jerk, other.phases[i].jerk) << i;
   }
 }
+
+// Legs hardly longer than the tolerance, most of them at sharp corners: smooth motions are hard to find.
+Toolpath tangled(std::uint64_t seed) {
+  test::Random random(seed);
+  Toolpath path;
+  Vector end = Vector::Zero();
+  double angle = 0;
+  for (int i = 0; i < 1000; ++i) {
+    angle += random.chance(0.6) ? random.uniform(-0.2, 0.2) : random.uniform(-2, 2);
+    end += random.uniform(0.02, 0.11) * Vector(std::cos(angle), std::sin(angle), 0);
+    path.segments.push_back({.end = end, .feed = kFeed, .tolerance = 0.04});
+  }
+  return path;
+}
+
+class TangledPath : public testing::TestWithParam<std::uint64_t> {};
+
+// One by one its corners take up to 12 s.
+TEST_P(TangledPath, IsTravelledSmoothlyWhereAMotionIsFoundForANearerHorizonOnly) {
+  const Toolpath path = tangled(GetParam());
+  const Summary summary = plan(path, options()).summary;
+  EXPECT_GT(summary.overlapping, path.segments.size() * 9 / 10);
+  EXPECT_LT(summary.cycle_time, 5);
+}
+
+// The first ones need horizons much nearer than half, the others one that sees all that the verifier was shown.
+INSTANTIATE_TEST_SUITE_P(Seeds, TangledPath, testing::Values(2, 34, 39, 5, 23, 32));
 
 TEST(LivePlanner, TakesALineOfManySegmentsAsOne) {
   Toolpath many;
