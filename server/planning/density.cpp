@@ -5,11 +5,16 @@
 namespace kcs::planning {
 namespace {
 
-// So many points for each sharp corner, or for each leg, are few.
-constexpr double kCrowd = 12, kDense = 12;
+// So many points for each sharp corner, or for each leg, are few; so many for each leg are many.
+constexpr double kCrowd = 12, kDense = 12, kSparse = 60;
 
-// Of fewer points nothing is dense: they cost little, and a short piece with rests at its ends wants every one.
-constexpr std::size_t kFewestDense = 150;
+// Fewer points are neither dense nor sparse: they cost little, and a short piece with rests at its ends wants every
+// one.
+constexpr std::size_t kFewest = 150;
+
+std::size_t legs_between(const StretchPath& path, double from, double to) {
+  return path.leg_at(to) - path.leg_at(from) + 1;
+}
 
 }  // namespace
 
@@ -22,9 +27,14 @@ bool is_crowded(const StretchPath& path, double from, double to, std::size_t poi
 }
 
 bool is_dense(const StretchPath& path, double from, double to, std::size_t points) {
-  if (points < kFewestDense) return false;
-  const std::size_t legs = path.leg_at(to) - path.leg_at(from) + 1;
-  return kDense * static_cast<double>(legs) > static_cast<double>(points) && !is_crowded(path, from, to, points);
+  if (points < kFewest) return false;
+  const auto legs = static_cast<double>(legs_between(path, from, to));
+  return kDense * legs > static_cast<double>(points) && !is_crowded(path, from, to, points);
+}
+
+bool is_sparse(const StretchPath& path, double from, double to, std::size_t points) {
+  const auto legs = static_cast<double>(legs_between(path, from, to));
+  return points >= kFewest && kSparse * legs < static_cast<double>(points);
 }
 
 }  // namespace kcs::planning

@@ -14,4 +14,7 @@ bool is_crowded(const StretchPath& path, double from, double to, std::size_t poi
 // points are many.
 bool is_dense(const StretchPath& path, double from, double to, std::size_t points);
 
+// Legs are so long that the motion is on lines most of the time, and the points are many.
+bool is_sparse(const StretchPath& path, double from, double to, std::size_t points);
+
 }  // namespace kcs::planning

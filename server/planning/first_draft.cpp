@@ -87,14 +87,16 @@ class Draft {
   }
 
   MotionDraft sample() const {
+    std::vector<Profile> profiles;
+    profiles.reserve(parts_.size());
     double duration = 0;
-    for (const Part& part : parts_) duration += profile(part).total();
+    for (const Part& part : parts_) duration += profiles.emplace_back(profile(part)).total();
     if (!(duration <= kMostPoints * step_)) return {};
     MotionDraft draft{.step = step_};
     const double in = parts_.front().start * step_;
     draft.ways = {range_.from - in, range_.from};
     double time = step_;  // of the next way, since the start of the part
-    for (const Part& part : parts_) time = sample_part(part, time, draft.ways);
+    for (std::size_t i = 0; i < parts_.size(); ++i) time = sample_part(parts_[i], profiles[i], time, draft.ways);
     const double out = parts_.back().end * step_;
     while (draft.ways.size() < 6) draft.ways.push_back(range_.to);
     draft.ways.insert(draft.ways.end(), {range_.to - out, range_.to, range_.to + out});
@@ -120,9 +122,8 @@ class Draft {
   }
 
   // Returns what is left of the last step.
-  double sample_part(const Part& part, double time, std::vector<double>& ways) const {
+  double sample_part(const Part& part, const Profile& profile, double time, std::vector<double>& ways) const {
     const double length = part.to - part.from;
-    const Profile profile = this->profile(part);
     const double total = profile.total();
     while (time < total) {
       const double left = total - time;

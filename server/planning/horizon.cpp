@@ -10,8 +10,8 @@ namespace {
 // What is settled at a time: so many steps of time (smooth_motion.h), and legs, at least. Both make planning wait for
 // the path, and the second keeps short programs whole.
 constexpr double kSettledSteps = 600, kSettledLegs = 64;
-// What is looked at beyond it: so many steps and legs at least, and as often as far as the tool needs to stop.
-constexpr double kAheadSteps = 80, kAheadLegs = 8, kAheadStops = 3;
+// What is looked at beyond it: kStepsAhead and so many legs at least, and as often as far as the tool needs to stop.
+constexpr double kLegsAhead = 8, kStopsAhead = 3;
 // Where legs are so short that these would be more, this is enough of them.
 constexpr double kMostLegs = 20'000;
 
@@ -57,15 +57,15 @@ void Horizon::see(const Leg& leg) {
 double Horizon::steps_of(const Leg& leg) {
   const double tolerance = leg.tolerance > 0 ? leg.tolerance : range::kMaxTolerance;
   const double time = leg.length / leg.feed, steps = time / step_of_time(tolerance, limits_);
-  const double at_feed = steps > kDenseSteps ? steps : time / dense_step_of_time(tolerance, limits_);
+  const double at_feed = steps > kDenseSteps ? steps : time / long_step_of_time(tolerance, limits_);
   return at_feed + (turns_.before(leg) ? kCornerSteps : 0);
 }
 
 bool Horizon::beyond() const {
   if (!ahead_ || legs_ < at_least_) return false;
   const auto seen = static_cast<double>(legs_ - until_ - 1);
-  return (steps_ >= share_ * kAheadSteps && seen >= share_ * kAheadLegs &&
-          way_ >= share_ * kAheadStops * stopping_way_) ||
+  return (steps_ >= share_ * kStepsAhead && seen >= share_ * kLegsAhead &&
+          way_ >= share_ * kStopsAhead * stopping_way_) ||
          seen >= share_ * kMostLegs;
 }
 

@@ -144,7 +144,7 @@ Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const
 void LivePlanner::settle_next() {
   if (!verifier_) begin();
   // A path that is seen whole is compared with taking its corners one by one (compare_corners); its parts are not.
-  const bool alone = at_end(horizon_.legs()) && !last_;
+  const bool alone = sees_all(horizon_);
   std::unique_ptr<Section> apart;
   std::size_t until_apart = 0;
   const auto settle_up_to = [&](const Horizon& horizon) {
@@ -181,12 +181,16 @@ void LivePlanner::settle_next() {
 std::unique_ptr<Section> LivePlanner::plan(const Horizon& horizon, CornerStrategy strategy) const {
   PlanOptions options = options_;
   options.strategy = strategy;
-  const bool last = at_end(horizon.legs()), alone = last && !last_;
-  if (!last) options.effort = last_ ? Effort::kUsual : Effort::kLeast;
-  return Section::plan(legs_.first(horizon.legs()), entry_, last ? ends_.end_speed : 0, alone, options);
+  const bool alone = sees_all(horizon);
+  if (!alone) options.effort = last_ ? Effort::kUsual : Effort::kLeast;
+  const double end_speed = at_end(horizon.legs()) ? ends_.end_speed : 0;
+  return Section::plan(legs_.first(horizon.legs()), entry_, end_speed, alone, options);
 }
 
 bool LivePlanner::at_end(std::size_t leg) const { return legs_.finished() && leg == legs_.size(); }
+
+// From the first leg to the last.
+bool LivePlanner::sees_all(const Horizon& horizon) const { return at_end(horizon.legs()) && !last_; }
 
 // Settles a section up to a leg, if the verifier finds nothing wrong with it, to its very end.
 bool LivePlanner::settle(std::unique_ptr<Section> section, std::size_t until) {

@@ -48,6 +48,7 @@ class LivePlanner {
   void settle_next();
   std::unique_ptr<Section> plan(const Horizon& horizon, CornerStrategy strategy) const;
   bool at_end(std::size_t leg) const;
+  bool sees_all(const Horizon& horizon) const;
   bool settle(std::unique_ptr<Section> section, std::size_t until);
   bool follow_last();
   void go_on(const Section::Cut& from, const Section::Cut& to, std::size_t dropped);

@@ -11,6 +11,8 @@
 namespace kcs::planning {
 namespace {
 
+// Between two points whose shares are no more than this, there is no need to look.
+constexpr double kWellWithin = 0.1;
 // From this share on a corner is too far away.
 constexpr double kCut = 0.8;
 // The point that was drawn to a corner stays the one, unless another is nearer than this share of its distance: each
@@ -94,7 +96,7 @@ void MotionShares::measure_places(const StretchPath& path, TimeSpline& spline, s
     const Projection at = path.project(point, leg);
     return std::pair(at, path.share_of_tolerance(at));
   };
-  double middle_before = 0;
+  double share_before = 0;
   for (std::size_t i = 1; i + 1 < size; ++i) {
     throw_if_stopped(stop_);
     const auto [at, share] = measure((1.0 / 6) * (points[i - 1] + points[i + 1]) + (4.0 / 6) * points[i], legs[i]);
@@ -102,13 +104,14 @@ void MotionShares::measure_places(const StretchPath& path, TimeSpline& spline, s
       spline.ways[i] = std::clamp(at.way, spline.ways[i - 1], std::max(spline.ways[i - 1], spline.ways[size - 3]));
       legs[i] = at.leg;
     }
-    double middle = 0;
-    if (closely && i + 2 < size) {
-      const Vector point = (1.0 / 48) * (points[i - 1] + points[i + 2]) + (23.0 / 48) * (points[i] + points[i + 1]);
-      middle = measure(point, legs[i]).second;
+    place_[i] = share;
+    if (closely && i > 1 && std::max(share_before, share) > kWellWithin) {
+      const Vector middle = (1.0 / 48) * (points[i - 2] + points[i + 1]) + (23.0 / 48) * (points[i - 1] + points[i]);
+      const double between = measure(middle, legs[i - 1]).second;
+      place_[i - 1] = std::max(place_[i - 1], between);
+      place_[i] = std::max(share, between);
     }
-    place_[i] = std::max({share, middle_before, middle});
-    middle_before = middle;
+    share_before = share;
   }
 }
 

@@ -52,7 +52,7 @@ void Paces::set(const MotionShares& shares, const SearchMode& mode) {
   const double aim = mode.crowded && mode.finishing ? kAimCrowded : kAimLimits;
   const double aim_beyond = mode.brisk && mode.finishing ? kAimTooMuch : aim;
   const double aim_too_fast = mode.finishing ? kAimTooFast : kAimSpeed;
-  const double shortest = sixth_power(mode.finishing ? 1 : kShortest), longest = sixth_power(kLongest);
+  const double shortest = sixth_power(kShortest), longest = sixth_power(kLongest);
   wishes_.resize(steps + 4);
   for (std::size_t j = 0; j < steps; ++j) {
     const double fast = speed[j], bent = std::max(share_at(acceleration, j, 1), share_at(acceleration, j, 0)),
@@ -62,6 +62,10 @@ void Paces::set(const MotionShares& shares, const SearchMode& mode) {
     if (mode.finishing) {
       const double away = std::max({shares.place()[j], shares.place()[j + 1], 1.0}) - 1;
       wish = std::max(wish, sixth_power(1 + kStretchAway * away));
+    }
+    if (mode.finishing && wish <= 1) {  // most are, by then
+      wishes_[j + 2] = 1;
+      continue;
     }
     const bool at_once = mode.urgent || (mode.finishing && j + mode.spare_end >= steps);
     if (!at_once) wish = std::sqrt(wish);

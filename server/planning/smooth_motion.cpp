@@ -40,8 +40,6 @@ constexpr double kHeld = 1e9;
 constexpr double kDrift = 0.5;
 // While finishing, the motion gets a step longer when its steps have asked for 1 − kEager of one.
 constexpr double kEager = 0.75;
-// The end of a brisk search that is spare, in steps: what planning looks at beyond what it settles (horizon.cpp).
-constexpr std::size_t kSpareEnd = 80;
 // What is at this share of the feed moves; what is at this share of such a speed stands.
 constexpr double kMoves = 0.1, kStands = 0.1;
 // A motion that has become so many times as long as its draft, which is slow already, leads nowhere.
@@ -100,7 +98,7 @@ double step_of_time(double tolerance, const motion::AxisLimits& limits) {
   return step_of_time(kShareOfCorner, tolerance, limits);
 }
 
-double dense_step_of_time(double tolerance, const motion::AxisLimits& limits) {
+double long_step_of_time(double tolerance, const motion::AxisLimits& limits) {
   constexpr double kShareOfCorner = 0.2;
   return step_of_time(kShareOfCorner, tolerance, limits);
 }
@@ -123,7 +121,7 @@ bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
   const double steps = static_cast<double>(ways.size()) * draft.step / step_;
   mode_.crowded = is_crowded(path_, range_.from, range_.to, static_cast<std::size_t>(steps));
   mode_.brisk = range_.dense && range_.effort != Effort::kFull;
-  mode_.spare_end = mode_.brisk ? kSpareEnd : 0;
+  mode_.spare_end = mode_.brisk ? kStepsAhead : 0;
   if (!mode_.crowded) {
     for (Vector& jerk : weights_.jerk) jerk.setConstant(jerk.maxCoeff());
   }

@@ -29,7 +29,7 @@ struct MotionRange {
   EndSpeeds at_most;        // the greatest speeds there; what begins or ends at rest does so exactly
   bool exact = false;       // these are the speeds there
   Effort effort = Effort::kFull;
-  bool dense = false;  // its step is that of dense_step_of_time
+  bool dense = false;  // legs follow each other within a few of its points (density.h)
   // The motion goes on from these three points, if there are any, whatever `from` and at_most.entry are…
   const TimeSpline* before = nullptr;
   // …and these are the pieces that lead there.
@@ -46,9 +46,13 @@ struct MotionDraft {
 // The step of time that suits these limits and the tolerance (mm), s: a fraction of the time in which an axis reaches
 // its acceleration, and of the time that a corner takes.
 double step_of_time(double tolerance, const motion::AxisLimits& limits);
-// The same where legs follow each other within a few steps (density.h): what is asked for changes slowly there, and a
-// longer step finds as fast a motion with less work.
-double dense_step_of_time(double tolerance, const motion::AxisLimits& limits);
+// A longer one, for less work (density.h). Where legs follow each other within a few steps, what is asked for changes
+// slowly, and the motion becomes as fast; where corners are rare, each takes a millisecond or two longer.
+double long_step_of_time(double tolerance, const motion::AxisLimits& limits);
+
+// Planning looks at so many steps beyond what it settles, at least (horizon.h): what is found for them only leads to
+// rest, and is searched again.
+constexpr std::size_t kStepsAhead = 80;
 
 // Finds a motion that is near to the fastest, as a spline of time. It starts from a draft and changes time and place in
 // turns: the points of the spline are drawn to the path only where they are too far away from it, else they avoid

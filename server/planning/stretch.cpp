@@ -27,7 +27,7 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
       stop_(options.stop),
       begun_(begun),
       path_(path, range, options),
-      step_(step_of_time(path_.tolerance(), limits_)) {
+      step_(long_step_of_time(path_.tolerance(), limits_)) {
   if (begun != nullptr) {
     last_ = begun->last;
     for (Vector& point : last_.points) point -= path_.origin();
@@ -37,10 +37,12 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
   // Whatever suited the stretch so far: what follows may be of another kind.
   MotionRange searched = motion_range(at_most, false);
   MotionDraft begin = draft(searched);
-  const double steps = static_cast<double>(begin.ways.size()) * begin.step / step_;
-  if (is_dense(path_, searched.from, searched.to, static_cast<std::size_t>(steps))) {
-    searched.dense = dense_ = true;
-    step_ = dense_step_of_time(path_.tolerance(), limits_);
+  const double step = step_of_time(path_.tolerance(), limits_);
+  const auto points = static_cast<std::size_t>(static_cast<double>(begin.ways.size()) * begin.step / step);
+  searched.dense = dense_ = is_dense(path_, searched.from, searched.to, points);
+  const bool sparse = is_sparse(path_, searched.from, searched.to, points);
+  if (!dense_ && (!sparse || effort_ == Effort::kFull)) {
+    step_ = step;
     if (begun == nullptr) begin = draft(searched);
   }
   search(searched, std::move(begin));

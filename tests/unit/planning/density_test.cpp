@@ -13,6 +13,7 @@ struct Case {
 
   bool crowded(std::size_t points) const { return is_crowded(stretch, 0, kLegs, points); }
   bool dense(std::size_t points) const { return is_dense(stretch, 0, kLegs, points); }
+  bool sparse(std::size_t points) const { return is_sparse(stretch, 0, kLegs, points); }
 
   static constexpr std::size_t kLegs = 50;
   PlanOptions options = options_for(2000, 1e5, ToleranceKind::kContourError, CornerStrategy::kAuto);
@@ -35,11 +36,20 @@ TEST(Density, SharpCornersOfFewPointsAreCrowdedAndNotDense) {
   EXPECT_FALSE(sharp.crowded(20 * Case::kLegs));
 }
 
+TEST(Density, LegsOfManyPointsAreSparse) {
+  const Case sharp(60);
+  EXPECT_TRUE(sharp.sparse(70 * Case::kLegs));
+  EXPECT_FALSE(sharp.sparse(50 * Case::kLegs));
+  EXPECT_FALSE(is_sparse(sharp.stretch, 0, 0.5, 100));  // few in all
+}
+
 TEST(Density, CountsBetweenTheWaysOnly) {
   const Case sharp(60);
   EXPECT_TRUE(is_crowded(sharp.stretch, 0, 50, 500));
   EXPECT_FALSE(is_crowded(sharp.stretch, 0, 25, 500));
   EXPECT_FALSE(is_dense(Case(2).stretch, 0, 25, 500));
+  EXPECT_TRUE(is_sparse(sharp.stretch, 0, 4.5, 500));
+  EXPECT_FALSE(is_sparse(sharp.stretch, 0, 25, 500));
 }
 
 }  // namespace
