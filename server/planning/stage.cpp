@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/planning/leg_profile.h"
+#include "server/planning/sharp_turns.h"
 #include "server/planning/stopped.h"
 
 namespace kcs::planning {
@@ -21,11 +22,18 @@ constexpr double kShareOfTight = 0.9;
 // 85°.
 constexpr double kReversal = 0.087;
 
-// A stretch begins and ends with this many steps of time on a line at least.
+// Of the lines before its first bend and after its last one, so many steps of time belong to a stretch at least. Where
+// a line becomes an arc, the acceleration across the path cannot change for longer without leaving the tolerance (for a
+// time t it takes the tool jerk·t³/24 aside, a tolerance on either side of the path): with less room it has to change
+// by less, and the tool to be slower.
+constexpr double kRoomSteps = 16;
+// The same where nothing slows the tool down. Where a leg has no room for that, a stretch begins or ends so slowly that
+// it takes so many steps.
 constexpr double kLeastSteps = 3;
 
-// A leg of more steps than this at the feed is worth corners of its own: it costs more than it can win.
-constexpr double kMostSteps = 50;
+// The corners at the ends of a leg of more steps than this at the feed are apart: one motion through both would cost
+// more than it can win. At a sharp corner the tool is slow, and there is less to win.
+constexpr double kMostSteps = 80, kMostStepsSharp = 50;
 
 class StageMaker {
  public:
@@ -101,9 +109,20 @@ class StageMaker {
         motion = alone.at(alone.max_speed());
       }
     }
-    const double room = kLeastSteps * (tolerance > 0 ? step_of_time(tolerance, options_.limits) : 0);
-    needs_.push_back(
-        {std::max(need(in, motion), room * in.feed), std::max(need(out, motion), room * out.feed), motion.speed > 0});
+    const bool free = is_free(in, out, motion.speed);
+    const double steps = free ? kLeastSteps : kRoomSteps;
+    const double room = steps * (tolerance > 0 ? step_of_time(tolerance, options_.limits) : 0);
+    needs_.push_back({std::max(need(in, motion), room * in.feed), std::max(need(out, motion), room * out.feed),
+                      motion.speed > 0, free});
+  }
+
+  // speed: that of the corner alone. Where a line becomes an arc in short chords, the first corner turns by half as
+  // much as the next ones; and in the arc, v² / radius is an acceleration.
+  bool is_free(const Leg& in, const Leg& out, double speed) const {
+    const auto axes = static_cast<Eigen::Index>(options_.limits.axes);
+    const double feed = std::min(in.feed, out.feed), turn = 2 * (out.direction - in.direction).norm();
+    const double asked = feed * feed * turn / std::min(in.length, out.length);
+    return speed >= feed && asked <= options_.limits.acceleration.head(axes).minCoeff();
   }
 
   bool smooth(std::size_t i) const { return i < needs_.size() && needs_[i].smooth; }
@@ -119,12 +138,15 @@ class StageMaker {
   bool rests_before(std::size_t leg) const { return leg == 0 ? entry_.rests : !smooth(leg - 1); }
   bool rests_after(std::size_t leg) const { return leg == needs_.size() ? end_speed_ == 0 : !smooth(leg); }
 
-  // The corners at the ends of legs i and i + 1 are too near to each other.
+  // The corners at the ends of legs i and i + 1 are taken by one motion.
   bool coupled(std::size_t i) const {
     if (!smooth(i) || !smooth(i + 1)) return false;
-    const Leg& leg = path_.legs[i + 1];
-    if (leg.length > kMostSteps * leg.feed * step_of_time(leg.tolerance, options_.limits)) return false;
-    return std::max(needs_[i].after + needs_[i + 1].before, need(leg, {})) > leg.length;
+    const Leg &in = path_.legs[i], &leg = path_.legs[i + 1], &out = path_.legs[i + 2];
+    const bool sharp = is_sharp(in.direction, leg.direction) || is_sharp(leg.direction, out.direction);
+    const double most = sharp ? kMostStepsSharp : kMostSteps;
+    if (leg.length > most * leg.feed * step_of_time(leg.tolerance, options_.limits)) return false;
+    const bool near = std::max(needs_[i].after + needs_[i + 1].before, need(leg, {})) > leg.length;
+    return near || !(needs_[i].free && needs_[i + 1].free);
   }
 
   // What a stretch takes of a leg, mm, at whose near end it has a corner that needs `near`, and at whose far end there

@@ -28,6 +28,7 @@ struct Stage {
 struct CornerNeeds {
   double before = 0, after = 0;
   bool smooth = false;  // it is no stop
+  bool free = false;    // the tool passes at the feed, even if a bend begins or ends here
 };
 
 struct Stages {

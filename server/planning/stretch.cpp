@@ -13,6 +13,9 @@ namespace {
 constexpr double kReached = 0.7;
 constexpr std::size_t kFarther = 8;
 
+// Slower ends, exactly as asked for, make a motion longer by this factor at most, unless its search went astray.
+constexpr double kHardlySlower = 1.05;
+
 template <class Values>
 Values tail(const Values& values, std::size_t from) {
   return Values(values.begin() + static_cast<std::ptrdiff_t>(from), values.end());
@@ -45,7 +48,7 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
     step_ = step;
     if (begun == nullptr) begin = draft(searched);
   }
-  search(searched, std::move(begin));
+  take(search(searched, std::move(begin)));
 }
 
 MotionRange Stretch::motion_range(const EndSpeeds& at_most, bool exact) const {
@@ -61,32 +64,40 @@ MotionRange Stretch::motion_range(const EndSpeeds& at_most, bool exact) const {
 }
 
 EndSpeeds Stretch::plan(const EndSpeeds& at_most) {
-  if (failed() || (speeds_.entry <= at_most.entry && speeds_.exit <= at_most.exit)) return speeds_;
-  const EndSpeeds slower{std::min(speeds_.entry, at_most.entry), std::min(speeds_.exit, at_most.exit)};
-  // A motion that becomes a little slower than asked for makes its neighbours slower, and they it, on and on.
-  const auto search_with = [&](bool exact) {
-    const MotionRange searched = motion_range(slower, exact);
-    search(searched, draft(searched));
-  };
-  if (slowed_) search_with(true);
-  if (!slowed_ || failed()) search_with(false);
+  const EndSpeeds now = speeds();
+  if (failed() || (now.entry <= at_most.entry && now.exit <= at_most.exit)) return now;
+  take(search_slower({std::min(now.entry, at_most.entry), std::min(now.exit, at_most.exit)}));
   slowed_ = true;
-  return speeds_;
+  return speeds();
 }
 
-void Stretch::search(const MotionRange& range, MotionDraft draft) {
+// A motion that becomes a little slower than asked for makes its neighbours slower, and they it, on and on: the second
+// time it gets what was asked for exactly. Where that is hard to reach, the slower ends cost less.
+std::optional<Stretch::Found> Stretch::search_slower(const EndSpeeds& at_most) const {
+  const auto search_with = [&](bool exact) {
+    const MotionRange searched = motion_range(at_most, exact);
+    return search(searched, draft(searched));
+  };
+  if (!slowed_) return search_with(false);
+  auto exact = search_with(true);
+  if (exact && exact->spline.duration() <= kHardlySlower * found_->spline.duration()) return exact;
+  auto slower = search_with(false);
+  const bool better = slower && (!exact || slower->spline.duration() < exact->spline.duration());
+  return better ? slower : exact;
+}
+
+std::optional<Stretch::Found> Stretch::search(const MotionRange& range, MotionDraft draft) const {
   SmoothMotion motion(path_, limits_, step_, stop_);
-  if (!motion.search(range, std::move(draft))) {
-    found_ = {};
-    speeds_ = {};
-    return;
-  }
+  if (!motion.search(range, std::move(draft))) return {};
+  return Found{motion.spline(), motion.weights(), motion.speeds()};
+}
+
+void Stretch::take(std::optional<Found> found) {
+  found_ = std::move(found);
+  if (failed()) return;
   pieces_.resize(first_piece());
-  found_ = motion.spline();
-  append_pieces(found_, pieces_);
+  append_pieces(found_->spline, pieces_);
   find_legs(path_, std::span(pieces_).subspan(first_piece()));
-  speeds_ = motion.speeds();
-  weights_ = motion.weights();
 }
 
 // What was found before, as far as it did not brake yet for its own end, and a slow motion after it; or farther, until
@@ -132,6 +143,8 @@ motion::Phase Stretch::phase(std::size_t piece) const {
 }
 
 BegunStretch Stretch::go_on(std::size_t pieces, std::size_t leg) const {
+  const TimeSpline& spline = found_->spline;
+  const FitWeights& weights = found_->weights;
   const double start = path_.start_of(leg), middle = (path_.way(leg) + path_.way(leg + 1)) / 2;
   std::size_t from = pieces - 1;
   while (from > 0 && pieces_[from].from > middle) --from;
@@ -143,9 +156,9 @@ BegunStretch Stretch::go_on(std::size_t pieces, std::size_t leg) const {
   BegunStretch result{
       .settled = {pieces_.begin() + static_cast<std::ptrdiff_t>(from),
                   pieces_.begin() + static_cast<std::ptrdiff_t>(pieces)},
-      .last = {found_.step, next_three(found_.points), next_three(found_.ways)},
-      .ways = tail(found_.ways, found),
-      .weights = {tail(weights_.place, found), tail(weights_.acceleration, found), tail(weights_.jerk, found)}};
+      .last = {spline.step, next_three(spline.points), next_three(spline.ways)},
+      .ways = tail(spline.ways, found),
+      .weights = {tail(weights.place, found), tail(weights.acceleration, found), tail(weights.jerk, found)}};
   const double time = result.settled.front().phase.start_time;
   for (StretchPiece& piece : result.settled) {
     piece.phase.start_time -= time;

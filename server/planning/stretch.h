@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -22,7 +23,7 @@ class Stretch {
           const BegunStretch* begun = nullptr);
 
   // No motion that keeps everything was found: the stretch has to be travelled in another way.
-  bool failed() const { return found_.points.empty(); }
+  bool failed() const { return !found_; }
 
   // A motion whose speeds at the ends are at most these, mm/s; the speeds that it has. If it fails, they are 0.
   EndSpeeds plan(const EndSpeeds& at_most);
@@ -31,7 +32,7 @@ class Stretch {
   // Those that were settled before, and those that were found.
   std::span<const StretchPiece> pieces() const { return pieces_; }
   double duration() const { return pieces_.back().phase.end_time(); }  // of all of them, s
-  EndSpeeds speeds() const { return speeds_; }
+  EndSpeeds speeds() const { return found_ ? found_->speeds : EndSpeeds{}; }
   // The first piece that was not settled before.
   std::size_t first_piece() const { return begun_ == nullptr ? 0 : begun_->settled.size(); }
   // A piece where it is on the machine, with the segments of the whole path.
@@ -42,8 +43,16 @@ class Stretch {
   BegunStretch go_on(std::size_t pieces, std::size_t leg) const;
 
  private:
+  struct Found {
+    TimeSpline spline;  // from the last three settled points on
+    FitWeights weights;
+    EndSpeeds speeds;
+  };
+
   MotionRange motion_range(const EndSpeeds& at_most, bool exact) const;
-  void search(const MotionRange& range, MotionDraft draft);
+  std::optional<Found> search(const MotionRange& range, MotionDraft draft) const;
+  std::optional<Found> search_slower(const EndSpeeds& at_most) const;
+  void take(std::optional<Found> found);
   MotionDraft draft(const MotionRange& range) const;
 
   AxisLimits limits_;
@@ -55,9 +64,7 @@ class Stretch {
   bool dense_ = false;
   TimeSpline last_;  // the last three settled points, if there are any
   std::vector<StretchPiece> pieces_;
-  TimeSpline found_;  // from the last three settled points on
-  FitWeights weights_;
-  EndSpeeds speeds_;
+  std::optional<Found> found_;
   bool slowed_ = false;  // once already
 };
 

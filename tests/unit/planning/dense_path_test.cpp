@@ -122,6 +122,42 @@ TEST(DensePath, DoesNotBrakeWhereSectionsMeet) {
   }
 }
 
+// A pocket's outline: lines, and fillets in short chords between them.
+TEST(DensePath, DoesNotBrakeInFilletsBetweenLines) {
+  constexpr double kRadius = 1.6, kChord = 0.09, kLine = 3, kTurn = kChord / kRadius;
+  Toolpath outline;
+  Vector end = Vector::Zero();
+  double angle = 0;
+  const auto go = [&](double length) {
+    end += length * Vector(std::cos(angle), std::sin(angle), 0);
+    outline.segments.push_back({.end = end, .feed = kFeed, .tolerance = kTolerance});
+  };
+  for (int fillet = 0; fillet < 40; ++fillet) {
+    go(kLine + 0.1 * fillet);
+    const int chords = 10 + fillet % 7;
+    const double turn = fillet % 2 == 0 ? kTurn : -kTurn;
+    for (int i = 0; i < chords; ++i) {
+      angle += i == 0 ? turn / 2 : turn;
+      go(kChord);
+    }
+    angle += turn / 2;
+  }
+  go(kLine);
+  const Plan result = plan(outline, dense_options());
+  const double in_a_circle = std::sqrt(kAcceleration * kRadius);
+  for (const Corner& corner : result.corners) EXPECT_GT(corner.speed, 0.65 * in_a_circle) << corner.segment;
+}
+
+// One smooth motion through them all would stay a little below the feed.
+TEST(DensePath, CornersThatCostNothingAreTakenOneByOne) {
+  constexpr double kSlow = 12;  // mm/s
+  Toolpath curve = turning_legs(400, 0.5, 3);
+  for (Segment& segment : curve.segments) segment.feed = kSlow;
+  const Plan result = plan(curve, dense_options());
+  EXPECT_EQ(result.summary.overlapping, 0);
+  EXPECT_LT(result.summary.cycle_time, 1.001 * result.summary.path_length / kSlow + 2 * std::sqrt(kSlow / kJerk));
+}
+
 // As CAM software leaves them where it joins what it reckoned apart.
 TEST(DensePath, JogsFarBelowTheToleranceCostNoTime) {
   Toolpath smooth, jogged;
