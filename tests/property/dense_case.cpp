@@ -1,5 +1,6 @@
 #include "tests/property/dense_case.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -47,7 +48,7 @@ class DenseMaker : Random {
 
   Curve any_curve() {
     const double radius = log_uniform(0.2, 100), height = log_uniform(0.01, 3);
-    switch (bits() % 5) {
+    switch (bits() % 6) {
       case 0:  // an arc
         return [=](double s) { return Vector(radius * std::cos(s / radius), radius * std::sin(s / radius), 0); };
       case 1: {  // a spiral whose turns lie `height` apart
@@ -67,6 +68,23 @@ class DenseMaker : Random {
       case 3: {  // a relief: up and down on the way along X
         const double wavelength = height * log_uniform(2, 30);
         return [=](double s) { return Vector(s, height * std::sin(6.3 * s / wavelength), 0.2 * s); };
+      }
+      case 4: {  // an outline: lines, and fillets that turn by `turn` to one side and to the other
+        const double line = log_uniform(0.3, 10), fillet = std::min(radius, 5.0), turn = uniform(0.2, 1.6);
+        return [=](double s) {
+          Vector place = Vector::Zero(), along = Vector::UnitX();
+          for (double side = 1; s > 0; side = -side) {
+            place += std::min(s, line) * along;
+            s -= line;
+            if (s <= 0) break;
+            const double angle = std::min(s / fillet, turn);
+            const Vector across(-side * along.y(), side * along.x(), 0);
+            place += fillet * (std::sin(angle) * along + (1 - std::cos(angle)) * across);
+            along = std::cos(angle) * along + std::sin(angle) * across;
+            s -= fillet * turn;
+          }
+          return place;
+        };
       }
       default: {  // stairs with steps of `height`
         return [=](double s) {
