@@ -346,7 +346,8 @@ class Staircase : public testing::TestWithParam<double> {};
 TEST_P(Staircase, IsFasterThanCornerByCorner) {
   Toolpath path;
   for (int i = 1; i <= 200; ++i) {
-    const Vector end(0.4 * ((i + 1) / 2), 0.4 * (i / 2), 0);
+    const int right = (i + 1) / 2, up = i / 2;
+    const Vector end(0.4 * right, 0.4 * up, 0);
     path.segments.push_back({.end = end, .feed = kFeed, .tolerance = GetParam()});
   }
   const Plan smooth = plan(path, dense_options()), each = plan(path, dense_options(CornerStrategy::kBlended));
