@@ -12,7 +12,7 @@ constexpr double kCrowd = 12, kDense = 12, kSparse = 60;
 // one.
 constexpr std::size_t kFewest = 150;
 
-std::size_t legs_between(const StretchPath& path, double from, double to) {
+std::size_t count_legs(const StretchPath& path, double from, double to) {
   return path.leg_at(to) - path.leg_at(from) + 1;
 }
 
@@ -28,12 +28,12 @@ bool is_crowded(const StretchPath& path, double from, double to, std::size_t poi
 
 bool is_dense(const StretchPath& path, double from, double to, std::size_t points) {
   if (points < kFewest) return false;
-  const auto legs = static_cast<double>(legs_between(path, from, to));
+  const auto legs = static_cast<double>(count_legs(path, from, to));
   return kDense * legs > static_cast<double>(points) && !is_crowded(path, from, to, points);
 }
 
 bool is_sparse(const StretchPath& path, double from, double to, std::size_t points) {
-  const auto legs = static_cast<double>(legs_between(path, from, to));
+  const auto legs = static_cast<double>(count_legs(path, from, to));
   return points >= kFewest && kSparse * legs < static_cast<double>(points);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/unit/planning/paths.h"
 
@@ -53,6 +54,37 @@ TEST(Stretch, TakesFewCornersOfManyPartsWithLongerSteps) {
   ASSERT_FALSE(usual.failed());
   EXPECT_LT(usual.pieces().size(), 0.7 * static_cast<double>(full.pieces().size()));
   EXPECT_LT(usual.duration(), 1.03 * full.duration());
+}
+
+// Its neighbours ask for less and less.
+TEST(Stretch, MostlyHardlyBecomesSlowerByLowerSpeedsAtItsEnds) {
+  const PlanOptions options = options_for(2000, 1e5, ToleranceKind::kContourError, CornerStrategy::kAuto);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> turn(-1.6, 1.6), length(0.5, 4);
+  int found = 0, much_slower = 0;
+  for (int i = 0; i < 200; ++i) {
+    Toolpath path;
+    double angle = 0;
+    Vector end = Vector::Zero();
+    for (int leg = 0; leg < 4; ++leg) {
+      const double way = leg == 0 || leg == 3 ? 6 : length(random);
+      end += way * Vector(std::cos(angle), std::sin(angle), 0);
+      path.segments.push_back({.end = end, .feed = 100, .tolerance = 0.02});
+      angle += turn(random);
+    }
+    const LegPath legs = legs_of(path, options.limits);
+    Stretch stretch(legs, {0, legs.legs.size() - 1, 4, 4}, options, {100, 100});
+    if (stretch.failed()) continue;
+    const double before = stretch.duration();
+    for (int times = 0; times < 2 && !stretch.failed(); ++times) {
+      stretch.plan({0.97 * stretch.speeds().entry, 0.97 * stretch.speeds().exit});
+    }
+    if (stretch.failed()) continue;
+    ++found;
+    if (stretch.duration() > 1.1 * before) ++much_slower;
+  }
+  EXPECT_GT(found, 150);
+  EXPECT_LT(much_slower, 0.25 * found);  // 0.41 if the ends always get exactly the speeds that were asked for
 }
 
 }  // namespace
