@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "server/motion/contour.h"
+#include "server/motion/going_back.h"
 #include "server/motion/mitres.h"
 #include "server/planning/stopped.h"
 
@@ -224,13 +225,10 @@ bool MotionShares::verify_piece(const StretchPath& path, const motion::AxisLimit
     well = false;
     raise(piece + 1, 2, kEmphasis * error / tolerance);
   }
-  const double standing = -kStanding * limits.velocity.maxCoeff();
-  for (std::size_t k = piece; k < piece + 3; ++k) {
-    const Vector velocity = spline.velocity(k);
-    const auto goes_along = [&](const Leg& leg) { return velocity.dot(leg.direction) >= standing; };
-    if (std::any_of(legs.begin(), legs.end(), goes_along)) continue;
+  const double standing = kStanding * limits.velocity.maxCoeff();
+  if (motion::speed_back(phase, phase.at(phase.duration), pieces, standing) > 0) {
     well = false;
-    raise(k, 2, kGoesBack);
+    raise(piece + 1, 2, kGoesBack);
   }
   pass_corners(path, phase, std::max(first, first_corner_), last);
   return well;
