@@ -52,13 +52,21 @@ std::optional<CornerPlan> plan_corners(const LegPath& path, const Entry& entry, 
 
 std::optional<CornerPlan> compare_corners(const LegPath& path, const Entry& entry, double end_speed,
                                           const PlanOptions& options) {
-  auto best = plan_corners(path, entry, end_speed, options);
+  const auto planned = [&](const PlanOptions& with) {
+    auto plan = plan_corners(path, entry, end_speed, with);
+    if (!plan) return plan;
+    for (const Stage& stage : plan->stages) {
+      if (stage.stretch) stage.stretch->tighten(stage.stretch->pieces().size());
+    }
+    return plan;
+  };
+  auto best = planned(options);
   if (options.strategy != CornerStrategy::kAuto) return best;
   for (const auto strategy : {CornerStrategy::kBlended, CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted,
                               CornerStrategy::kExactStop}) {
     PlanOptions one = options;
     one.strategy = strategy;
-    auto other = plan_corners(path, entry, end_speed, one);
+    auto other = planned(one);
     if (!other || (best && travel_time(*other, entry, one.stop) >= travel_time(*best, entry, one.stop))) continue;
     other->taken_apart = best && best->taken_apart;
     best = std::move(other);

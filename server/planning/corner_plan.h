@@ -23,8 +23,8 @@ struct CornerPlan {
 std::optional<CornerPlan> plan_corners(const LegPath& path, const Entry& entry, double end_speed,
                                        const PlanOptions& options);
 
-// The same; with kAuto, no slower than any other strategy throughout. For short paths: in long ones the differences
-// even out, and planning so often takes too long.
+// The same, with stretches made faster (tightening.h); with kAuto, no slower than any other strategy throughout. For
+// short paths: in long ones the differences even out, and planning so often takes too long.
 std::optional<CornerPlan> compare_corners(const LegPath& path, const Entry& entry, double end_speed,
                                           const PlanOptions& options);
 

@@ -204,6 +204,7 @@ bool LivePlanner::settle(std::unique_ptr<Section> section, std::size_t until) {
     throw invalid("path, end_speed", fmt::format("is {} mm/s, but the path is too short to get faster than {} mm/s",
                                                  ends_.end_speed, section->end_speed()));
   }
+  section->tighten(cut);
   section->build(time_);
   motion::Verifier settled = *verifier_;
   std::swap(settled, *verifier_);  // to come back to if something is wrong

@@ -27,6 +27,14 @@ std::unique_ptr<Section> Section::plan(LegPath path, Entry entry, double end_spe
   return section;
 }
 
+void Section::tighten(const Cut& to) {
+  for (std::size_t i = 0; i < corners_.stages.size() && i <= to.stage; ++i) {
+    const auto& stretch = corners_.stages[i].stretch;
+    if (!stretch || (i == to.stage && to.pieces == 0)) continue;
+    stretch->tighten(i == to.stage ? to.pieces : stretch->pieces().size());
+  }
+}
+
 void Section::build(double time) {
   MotionBuilder builder(time);
   CornerMotion entry = entry_.motion;

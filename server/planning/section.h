@@ -34,6 +34,8 @@ class Section {
   bool taken_apart() const { return corners_.taken_apart; }
   double end_speed() const { return corners_.speeds.back(); }  // mm/s
 
+  // Makes stretches faster up to a cut; not what comes after it, which is planned again.
+  void tighten(const Cut& to);
   // Makes the phases, from `time` (s) on.
   void build(double time);
   // From one place to another. Phases name segments of the whole path.

@@ -5,6 +5,7 @@
 
 #include "server/planning/density.h"
 #include "server/planning/first_draft.h"
+#include "server/planning/tightening.h"
 
 namespace kcs::planning {
 namespace {
@@ -16,9 +17,17 @@ constexpr std::size_t kFarther = 8;
 // Slower ends, exactly as asked for, make a motion longer by this factor at most, unless its search went astray.
 constexpr double kHardlySlower = 1.05;
 
+// Stretches of fewer legs, one part of many, are not made faster: a tool is lifted, moved and lowered again and again.
+constexpr std::size_t kFewestLegs = 4;
+
 template <class Values>
 Values tail(const Values& values, std::size_t from) {
   return Values(values.begin() + static_cast<std::ptrdiff_t>(from), values.end());
+}
+
+template <class Values>
+Values head(const Values& values, std::size_t size) {
+  return Values(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size));
 }
 
 }  // namespace
@@ -44,7 +53,8 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
   const auto points = static_cast<std::size_t>(static_cast<double>(begin.ways.size()) * begin.step / step);
   searched.dense = dense_ = is_dense(path_, searched.from, searched.to, points);
   const bool sparse = is_sparse(path_, searched.from, searched.to, points);
-  if (!dense_ && (!sparse || effort_ == Effort::kFull)) {
+  long_steps_ = dense_ || (sparse && effort_ != Effort::kFull);
+  if (!long_steps_) {
     step_ = step;
     if (begun == nullptr) begin = draft(searched);
   }
@@ -98,6 +108,25 @@ void Stretch::take(std::optional<Found> found) {
   pieces_.resize(first_piece());
   append_pieces(found_->spline, pieces_);
   find_legs(path_, std::span(pieces_).subspan(first_piece()));
+}
+
+// There is little to gain where longer steps do, and where corners are few.
+void Stretch::tighten(std::size_t pieces) {
+  const std::size_t first = first_piece(), found = pieces - first;
+  const std::size_t legs = path_.leg_at(pieces_[pieces - 1].to) - path_.leg_at(pieces_[first].from) + 1;
+  const bool hardly = long_steps_ || legs < kFewestLegs;
+  if (tightened_ || effort_ == Effort::kLeast || (effort_ == Effort::kUsual && hardly)) return;
+  tightened_ = true;
+  TimeSpline spline{found_->spline.step, head(found_->spline.points, found + 3), head(found_->spline.ways, found + 3)};
+  spline = Tightening(path_, limits_, stop_).run(spline, this->pieces().first(first));
+  std::vector<StretchPiece> after = tail(pieces_, pieces);
+  const double before = pieces_[pieces - 1].phase.end_time();
+  pieces_.resize(first);
+  append_pieces(spline, pieces_);
+  find_legs(path_, std::span(pieces_).subspan(first));
+  const double earlier = before - pieces_.back().phase.end_time();
+  for (StretchPiece& piece : after) piece.phase.start_time -= earlier;
+  pieces_.insert(pieces_.end(), after.begin(), after.end());
 }
 
 // What was found before, as far as it did not brake yet for its own end, and a slow motion after it; or farther, until

@@ -28,6 +28,10 @@ class Stretch {
   // A motion whose speeds at the ends are at most these, mm/s; the speeds that it has. If it fails, they are 0.
   EndSpeeds plan(const EndSpeeds& at_most);
 
+  // Makes the motion faster up to the end of a piece, where its speed and its acceleration stay, if the effort asks for
+  // that; once. `pieces`: how many come before there. plan() is of no more use then.
+  void tighten(std::size_t pieces);
+
   const StretchPath& path() const { return path_; }
   // Those that were settled before, and those that were found.
   std::span<const StretchPiece> pieces() const { return pieces_; }
@@ -44,7 +48,7 @@ class Stretch {
 
  private:
   struct Found {
-    TimeSpline spline;  // from the last three settled points on
+    TimeSpline spline;  // from the last three settled points on, as it was before it was tightened
     FitWeights weights;
     EndSpeeds speeds;
   };
@@ -61,11 +65,12 @@ class Stretch {
   const BegunStretch* begun_;
   StretchPath path_;
   double step_;  // of what is searched, s
-  bool dense_ = false;
+  bool dense_ = false, long_steps_ = false;
   TimeSpline last_;  // the last three settled points, if there are any
   std::vector<StretchPiece> pieces_;
   std::optional<Found> found_;
   bool slowed_ = false;  // once already
+  bool tightened_ = false;
 };
 
 }  // namespace kcs::planning
