@@ -23,6 +23,11 @@ struct PointSum {
     for (std::size_t i = 0; i < count; ++i) result += weights[i] * points[first + i];
     return result;
   }
+
+  // Adds weights_i · value to each of its points.
+  void spread(const Vector& value, std::span<Vector> points) const {
+    for (std::size_t i = 0; i < count; ++i) points[first + i] += weights[i] * value;
+  }
 };
 
 // Symmetric; three rows for each point, one for each axis. What is not near to the diagonal is zero and takes no memory

@@ -12,7 +12,7 @@ namespace kcs::planning {
 namespace {
 
 // Of each limit so much is taken: what is fitted keeps it nearly, and must keep it in the end.
-constexpr double kShareOfLimits = 0.9999;
+constexpr double kShareOfLimits = 0.9985;
 
 // So many steps before and after it is nearest to a corner, the tool is looked at as well: it turns most there.
 constexpr std::array<double, 2> kBesideCorner{0.35, 0.7};

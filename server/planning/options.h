@@ -33,7 +33,7 @@ enum class CornerStrategy {
 // What counts where cycle time can be had for planning time.
 enum class Effort {
   kFull,   // the path is short, and this is all of it: cycle time
-  kUsual,  // this is one of many parts: both; up to 0.3 % of the cycle time is given for a tenth to a third of the work
+  kUsual,  // this is one of many parts: both; up to 1 % of the cycle time is given for up to two thirds of the work
   kLeast,  // the machine waits for this part: what is found sooner and is nearly as fast will do
 };
 

@@ -8,32 +8,23 @@
 namespace kcs::planning {
 namespace {
 
-constexpr std::size_t kHeldPoints = 3;  // at either end
+constexpr std::size_t kHeldPoints = 3;  // at either end, not free
 constexpr int kMostSteps = 50;
-// At first: t, the least slack, and all slacks times their multipliers.
-constexpr double kFirst = 1.05, kLeastSlack = 0.03, kFirstGap = 0.5;
-// In the end: slacks times multipliers, which is how much less t could be, and what is outside.
-constexpr double kGap = 0.01, kOutside = 3e-3;
+// At first: the least slack, and all slacks times their multipliers if nothing is outside. Else it is more, so that
+// what is outside comes in before the gap is closed.
+constexpr double kLeastSlack = 0.03, kFirstGap = 1;
+// In the end: slacks times multipliers, which is how much less `longer` could be, and what is outside.
+constexpr double kGap = 5e-3, kOutside = 1e-3;
 // A step takes slacks and multipliers no nearer to zero than by this share.
 constexpr double kNearest = 0.99;
-// What held points take part in has this much of its distance, squared, as its limit, inverted.
-constexpr double kShareOfHeld = 0.999;
-// The next step aims at this share of the gap where the last one went nearly all the way, where it went half of it, and
-// where it was shorter.
-constexpr double kBold = 0.05, kCautious = 0.2, kCentering = 0.6;
 
-// What the gradients of inequalities are taken times, in the matrix and on the right side.
 template <class Side>
 typename Side::Numbers stiffness(const Side& side) {
   return side.multiplier / side.slack;
 }
 template <class Side>
-typename Side::Numbers force(const Side& side, double target) {
-  return (target + side.multiplier * (side.excess + side.slack)) / side.slack;
-}
-template <class Side>
-typename Side::Numbers change_of_multiplier(const Side& side, double target) {
-  return (target - side.multiplier * side.change) / side.slack - side.multiplier;
+typename Side::Numbers force(const Side& side) {
+  return (side.target + side.multiplier * (side.excess + side.slack)) / side.slack;
 }
 
 // The share of a change, up to all of it, that leaves positive values positive.
@@ -42,11 +33,20 @@ double longest(const Numbers& values, const Numbers& change) {
   return kNearest / std::max(kNearest, (-change / values).maxCoeff());
 }
 
+double cube(double value) { return value * value * value; }
+
 }  // namespace
 
 void QuickestFit::begin(std::span<const Vector> points) {
   points_.assign(points.begin(), points.end());
-  t_ = kFirst;
+  for (const std::size_t end : {std::size_t{0}, points.size() - kHeldPoints}) {
+    const Vector bend = points[end + 2] - 2 * points[end + 1] + points[end], move = (points[end + 2] - points[end]) / 2;
+    Vector* drift = &drift_[end == 0 ? 0 : kHeldPoints];
+    drift[0] = 2.0 / 3 * bend - move;
+    drift[1] = -1.0 / 3 * bend;
+    drift[2] = 2.0 / 3 * bend + move;
+  }
+  longer_ = 1;
   boxes_.clear();
   rounds_.clear();
 }
@@ -59,30 +59,43 @@ bool QuickestFit::is_all_free(const PointSum& sum) const {
   return sum.first >= kHeldPoints && sum.first + sum.count + kHeldPoints <= points_.size();
 }
 
-Vector QuickestFit::Round::away(const std::vector<Vector>& points) const {
-  const Vector from = sum.of(points) - region.origin;
-  return from - from.dot(region.direction) * region.direction;
+Vector QuickestFit::drift_of(const PointSum& sum) const {
+  Vector drift = Vector::Zero();
+  const std::size_t end_free = points_.size() - kHeldPoints;
+  for (std::size_t i = 0; i < sum.count; ++i) {
+    const std::size_t point = sum.first + i;
+    if (point < kHeldPoints) drift += sum.weights[i] * drift_[point];
+    if (point >= end_free) drift += sum.weights[i] * drift_[kHeldPoints + point - end_free];
+  }
+  return drift;
 }
 
 void QuickestFit::limit_axes(const PointSum& sum, const Vector& limit, Kind kind) {
-  if (is_free(sum)) boxes_.push_back({sum, limit.array().inverse(), static_cast<double>(kind) / 3});
+  if (!is_free(sum)) return;
+  const Eigen::Array3d per_limit = limit.array().inverse(), drift = drift_of(sum).array() * per_limit;
+  const auto growth = static_cast<double>(kind);
+  boxes_.push_back({sum, per_limit, growth - drift, growth + drift});
 }
 
 void QuickestFit::limit_speed(const PointSum& sum, double limit) {
-  if (is_free(sum)) rounds_.push_back({sum, {.radius = limit}, 1 / (limit * limit), 2.0 / 3});
+  if (is_free(sum)) rounds_.push_back({sum, {.radius = limit}, 1 / (limit * limit), 2, drift_of(sum)});
 }
 
 void QuickestFit::place(const PointSum& sum, const Region& region) {
-  if (!is_free(sum)) return;
-  Round round{sum, region, 1 / (region.radius * region.radius), 0};
-  if (!is_all_free(sum))
-    round.per_square = std::min(round.per_square, kShareOfHeld / round.away(points_).squaredNorm());
-  rounds_.push_back(round);
+  if (is_all_free(sum)) rounds_.push_back({sum, region, 1 / (region.radius * region.radius), 0, Vector::Zero()});
+}
+
+template <class Use>
+void QuickestFit::for_all_sides(Use use) {
+  for (Box& box : boxes_) {
+    use(box.above);
+    use(box.below);
+  }
+  for (Round& round : rounds_) use(round.side);
 }
 
 bool QuickestFit::solve(const std::stop_token& stop) {
   inequalities_ = static_cast<double>(6 * boxes_.size() + rounds_.size());
-  centering_ = kCautious;
   measure();
   set_slacks();
   for (int i = 0; i < kMostSteps; ++i) {
@@ -105,129 +118,137 @@ void QuickestFit::measure() {
   };
   for (Box& box : boxes_) {
     const Eigen::Array3d share = box.sum.of(points_).array() * box.per_limit;
-    const double allowed = 1 + box.per_t * (t_ - 1);
-    box.above.excess = share - allowed;
-    box.below.excess = -share - allowed;
+    box.above.excess = share - 1 - (longer_ - 1) * box.growth_above;
+    box.below.excess = -share - 1 - (longer_ - 1) * box.growth_below;
     add(box.above);
     add(box.below);
   }
   for (Round& round : rounds_) {
-    const Vector away = round.away(points_);
+    const Vector away = round.across(round.sum.of(points_) + (longer_ - 1) * round.drift - round.region.origin);
     round.gradient = 2 * round.per_square * away;
-    round.side.excess[0] = round.per_square * away.squaredNorm() - 1 - round.per_t * (t_ - 1);
+    round.side.excess[0] = round.per_square * away.squaredNorm() - 1 - round.growth * (longer_ - 1);
     add(round.side);
   }
 }
 
 void QuickestFit::set_slacks() {
-  const auto set = [&](auto& side) {
+  gap_ = kFirstGap * std::sqrt(1 + outside_);
+  for_all_sides([&](auto& side) {
     side.slack = (-side.excess).max(kLeastSlack);
-    side.multiplier = kFirstGap / inequalities_ / side.slack;
-  };
-  for (Box& box : boxes_) {
-    set(box.above);
-    set(box.below);
-  }
-  for (Round& round : rounds_) set(round.side);
-  gap_ = kFirstGap;
+    side.multiplier = gap_ / inequalities_ / side.slack;
+  });
 }
 
+// First a step to where all slacks or multipliers would be zero: it shows how far one can aim, and what it neglects.
 bool QuickestFit::step() {
-  const double target = centering_ * gap_ / inequalities_;
-  const Corner corner = assemble(target);
-  if (!matrix_.factorize()) return false;
-  move(target, find_change(corner));
-  return std::isfinite(t_);
+  if (!assemble()) return false;
+  for_all_sides([](auto& side) { side.target.setZero(); });
+  const double target = cube(gap_after(find_change()) / gap_) * gap_ / inequalities_;
+  for_all_sides([&](auto& side) { side.target = target - side.slack_change * side.multiplier_change; });
+  move(find_change());
+  return std::isfinite(longer_);
 }
 
-// Newton's equations for the points and t, without the slacks and multipliers, which follow from them.
-QuickestFit::Corner QuickestFit::assemble(double target) {
-  const std::size_t size = points_.size();
-  matrix_.reset(size);
-  border_.assign(size, Vector::Zero());
-  change_.assign(size, Vector::Zero());
-  Corner corner{0, -1};
-  const auto spread = [](const PointSum& sum, const Vector& value, std::vector<Vector>& to) {
-    for (std::size_t i = 0; i < sum.count; ++i) to[sum.first + i] += sum.weights[i] * value;
-  };
+// Newton's equations, without the slacks and multipliers, which follow from the points and `longer`. That one is in
+// nearly every equation: it is taken out of them by its border.
+bool QuickestFit::assemble() {
+  matrix_.reset(points_.size());
+  border_.assign(points_.size(), Vector::Zero());
+  stiff_ = 0;
   for (const Box& box : boxes_) {
-    const Eigen::Array3d stiff_above = stiffness(box.above), stiff_below = stiffness(box.below);
-    const Eigen::Array3d force_above = force(box.above, target), force_below = force(box.below, target);
-    const Eigen::Array3d both = stiff_above + stiff_below;
-    matrix_.add(box.sum, Eigen::Array3d(both * box.per_limit.square()));
-    spread(box.sum, -box.per_t * (box.per_limit * (stiff_above - stiff_below)).matrix(), border_);
-    spread(box.sum, (box.per_limit * (force_below - force_above)).matrix(), change_);
-    corner.matrix += box.per_t * box.per_t * both.sum();
-    corner.right += box.per_t * (force_above + force_below).sum();
+    const Eigen::Array3d above = stiffness(box.above), below = stiffness(box.below);
+    const Eigen::Array3d grown_above = above * box.growth_above, grown_below = below * box.growth_below;
+    matrix_.add(box.sum, Eigen::Array3d((above + below) * box.per_limit.square()));
+    box.sum.spread(box.per_limit * (grown_below - grown_above), border_);
+    stiff_ += (grown_above * box.growth_above + grown_below * box.growth_below).sum();
   }
   for (const Round& round : rounds_) {
-    const double stiff = stiffness(round.side)[0], forced = force(round.side, target)[0];
+    const double stiff = stiffness(round.side)[0];
     const Vector &direction = round.region.direction, &gradient = round.gradient;
     Eigen::Matrix3d block = -direction * direction.transpose();
     block.diagonal().array() += 1;
     block *= 2 * round.per_square * round.side.multiplier[0];
     block += stiff * gradient * gradient.transpose();
     matrix_.add(round.sum, block);
-    spread(round.sum, -forced * gradient, change_);
-    if (round.per_t == 0) continue;
-    spread(round.sum, -round.per_t * stiff * gradient, border_);
-    corner.matrix += round.per_t * round.per_t * stiff;
-    corner.right += round.per_t * forced;
+    if (round.growth == 0) continue;
+    const Vector grown = block * round.drift - round.growth * stiff * gradient;
+    round.sum.spread(grown, border_);
+    stiff_ += round.drift.dot(grown) - round.growth * stiff * (gradient.dot(round.drift) - round.growth);
   }
-  for (std::size_t i = 0; i < kHeldPoints; ++i) {
-    for (const std::size_t held : {i, size - 1 - i}) {
+  for (const std::size_t end : {std::size_t{0}, points_.size() - kHeldPoints}) {
+    for (std::size_t held = end; held < end + kHeldPoints; ++held) {
       matrix_.hold(held);
-      border_[held] = change_[held] = Vector::Zero();
+      border_[held].setZero();
     }
   }
-  return corner;
-}
-
-// t is in nearly every equation: it is taken out of them by its border. Returns its change.
-double QuickestFit::find_change(const Corner& corner) {
+  if (!matrix_.factorize()) return false;
   along_border_ = border_;
   matrix_.solve(along_border_);
-  matrix_.solve(change_);
-  double stiff = corner.matrix, forced = corner.right;
-  for (std::size_t i = 0; i < border_.size(); ++i) {
-    stiff -= border_[i].dot(along_border_[i]);
-    forced -= border_[i].dot(change_[i]);
-  }
-  const double change_of_t = forced / stiff;
-  for (std::size_t i = kHeldPoints; i + kHeldPoints < change_.size(); ++i) change_[i] -= change_of_t * along_border_[i];
-  return change_of_t;
+  for (std::size_t i = 0; i < border_.size(); ++i) stiff_ -= border_[i].dot(along_border_[i]);
+  return true;
 }
 
-void QuickestFit::move(double target, double change_of_t) {
-  double share = 1, share_of_multipliers = 1;
-  const auto find_share = [&](auto& side, const auto& change_of_excess) {
-    side.change = -(side.excess + side.slack) - change_of_excess;
-    share = std::min(share, longest(side.slack, side.change));
-    share_of_multipliers = std::min(share_of_multipliers, longest(side.multiplier, change_of_multiplier(side, target)));
+// To come to the targets.
+QuickestFit::Shares QuickestFit::find_change() {
+  const std::size_t first_free = kHeldPoints, end_free = points_.size() - kHeldPoints;
+  change_.assign(points_.size(), Vector::Zero());
+  double forced = -1;  // what `longer` itself is worth
+  for (const Box& box : boxes_) {
+    const Eigen::Array3d above = force(box.above), below = force(box.below);
+    box.sum.spread(box.per_limit * (below - above), change_);
+    forced += (above * box.growth_above + below * box.growth_below).sum();
+  }
+  for (const Round& round : rounds_) {
+    const double value = force(round.side)[0];
+    round.sum.spread(-value * round.gradient, change_);
+    forced += (round.growth - round.gradient.dot(round.drift)) * value;
+  }
+  const auto hold = [&] {
+    std::fill(change_.begin(), change_.begin() + first_free, Vector::Zero());
+    std::fill(change_.begin() + static_cast<std::ptrdiff_t>(end_free), change_.end(), Vector::Zero());
+  };
+  hold();
+  matrix_.solve(change_);
+  for (std::size_t i = first_free; i < end_free; ++i) forced -= border_[i].dot(change_[i]);
+  change_of_longer_ = forced / stiff_;
+  for (std::size_t i = first_free; i < end_free; ++i) change_[i] -= change_of_longer_ * along_border_[i];
+  hold();
+  Shares shares;
+  const auto find = [&](auto& side, const auto& change_of_excess) {
+    side.slack_change = -(side.excess + side.slack) - change_of_excess;
+    side.multiplier_change = (side.target - side.multiplier * side.slack_change) / side.slack - side.multiplier;
+    shares.slacks = std::min(shares.slacks, longest(side.slack, side.slack_change));
+    shares.multipliers = std::min(shares.multipliers, longest(side.multiplier, side.multiplier_change));
   };
   for (Box& box : boxes_) {
     const Eigen::Array3d moved = box.sum.of(change_).array() * box.per_limit;
-    const double allowed = box.per_t * change_of_t;
-    find_share(box.above, Eigen::Array3d(moved - allowed));
-    find_share(box.below, Eigen::Array3d(-moved - allowed));
+    find(box.above, Eigen::Array3d(moved - change_of_longer_ * box.growth_above));
+    find(box.below, Eigen::Array3d(-moved - change_of_longer_ * box.growth_below));
   }
   for (Round& round : rounds_) {
-    find_share(round.side, round.gradient.dot(round.sum.of(change_)) - round.per_t * change_of_t);
+    const Vector moved = round.sum.of(change_) + change_of_longer_ * round.drift;
+    find(round.side, round.gradient.dot(moved) - round.growth * change_of_longer_);
   }
-  const auto move_side = [&](auto& side) {
-    const auto multiplier = change_of_multiplier(side, target);
-    side.slack += share * side.change;
-    side.multiplier += share_of_multipliers * multiplier;
-  };
-  for (Box& box : boxes_) {
-    move_side(box.above);
-    move_side(box.below);
-  }
-  for (Round& round : rounds_) move_side(round.side);
-  for (std::size_t i = kHeldPoints; i + kHeldPoints < points_.size(); ++i) points_[i] += share * change_[i];
-  t_ += share * change_of_t;
-  const double both = std::min(share, share_of_multipliers);
-  centering_ = both > 0.9 ? kBold : both > 0.5 ? kCautious : kCentering;
+  return shares;
+}
+
+double QuickestFit::gap_after(const Shares& shares) {
+  double gap = 0;
+  for_all_sides([&](auto& side) {
+    gap += ((side.slack + shares.slacks * side.slack_change) *
+            (side.multiplier + shares.multipliers * side.multiplier_change))
+               .sum();
+  });
+  return gap;
+}
+
+void QuickestFit::move(const Shares& shares) {
+  for_all_sides([&](auto& side) {
+    side.slack += shares.slacks * side.slack_change;
+    side.multiplier += shares.multipliers * side.multiplier_change;
+  });
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i] += shares.slacks * change_[i];
+  longer_ += shares.slacks * change_of_longer_;
 }
 
 }  // namespace kcs::planning

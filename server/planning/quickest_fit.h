@@ -11,14 +11,16 @@
 
 namespace kcs::planning {
 
-// A convex program: the points of a motion, all but the first and the last three of them free, and the least t with
-// which all limits are kept if every step of time may last t^(1/3) times as long. Then jerk may be t times its limit,
-// acceleration t^(2/3) times and speed t^(1/3) times; for the latter two the tangents at t = 1 are taken.
-// Solved by a primal-dual interior-point method whose first points need not keep anything (Boyd and Vandenberghe,
-// Convex Optimization, 11.7; with slacks). What constrains it is added first. Keeps its memory from one to the next.
+// A convex program: the points of a motion, all but the first and the last three of them free, and the least share
+// "longer" with which all limits are kept if every step of time lasts that many times as long. Then speed may be so
+// many times its limit, acceleration the square and jerk the cube; of these the tangents at 1 are taken, which allow
+// less. The ends stay where they are and as fast: how their points move with the steps is taken into account. Solved by
+// a primal-dual interior-point method whose first points need not keep anything, with Mehrotra's predictor and
+// corrector (Nocedal and Wright, Numerical Optimization, 19.3). What constrains it is added first. Keeps its memory
+// from one to the next.
 class QuickestFit {
  public:
-  // With which power of the time a limit grows.
+  // With which power of the steps' length a limit grows.
   enum class Kind { kSpeed = 1, kAcceleration = 2, kJerk = 3 };
 
   // Away from a point or, if there is a direction (a unit vector), from a line: at most this radius, mm.
@@ -35,63 +37,73 @@ class QuickestFit {
   void limit_axes(const PointSum& sum, const Vector& limit, Kind kind);
   // The length of the sum is a speed and at most this.
   void limit_speed(const PointSum& sum, double limit);
-  // The sum lies in a region. If held points are part of it, it may be as far away as it is, whatever the radius.
+  // The sum lies in a region, unless points that are not free are part of it.
   void place(const PointSum& sum, const Region& region);
 
   // False if it was not solved within a bounded number of rounds. Throws Stopped.
   bool solve(const std::stop_token& stop);
 
-  // To a hundredth of t, and nearly inside.
+  // To half a percent of the time, and nearly inside. Points that are not free are as they were.
   std::span<const Vector> points() const { return points_; }
-  double t() const { return t_; }
+  double longer() const { return longer_; }
 
  private:
-  // Inequalities f ≤ 0: f + slack is to become zero, slack · multiplier too.
+  // Inequalities f ≤ 0: f + slack is to become zero, slack · multiplier the target, and that zero at last.
   template <int Size>
   struct Inequalities {
     using Numbers = Eigen::Array<double, Size, 1>;
     Numbers excess = Numbers::Zero();  // f
-    Numbers slack = Numbers::Zero(), multiplier = Numbers::Zero();
-    Numbers change = Numbers::Zero();  // of the slack, in a step
+    Numbers slack = Numbers::Zero(), multiplier = Numbers::Zero(), target = Numbers::Zero();
+    Numbers slack_change = Numbers::Zero(), multiplier_change = Numbers::Zero();  // in a step
   };
   struct Box {
     PointSum sum;
     Eigen::Array3d per_limit;
-    double per_t;
+    Eigen::Array3d growth_above, growth_below;  // of what is allowed, with longer steps
     Inequalities<3> above = {}, below = {};
   };
   struct Round {
     PointSum sum;
     Region region;
-    double per_square, per_t;
+    double per_square, growth;
+    Vector drift;  // of the sum, with longer steps
     Vector gradient = Vector::Zero();
     Inequalities<1> side = {};
 
-    Vector away(const std::vector<Vector>& points) const;  // from the region's point or line
+    Vector across(const Vector& value) const { return value - value.dot(region.direction) * region.direction; }
   };
-  // What t has to do with itself, and the right side of t.
-  struct Corner {
-    double matrix, right;
+  // Up to 1, so that slacks and multipliers stay positive.
+  struct Shares {
+    double slacks = 1, multipliers = 1;
   };
 
+  template <class Use>
+  void for_all_sides(Use use);
   bool is_free(const PointSum& sum) const;
   bool is_all_free(const PointSum& sum) const;
+  Vector drift_of(const PointSum& sum) const;
   void measure();
   void set_slacks();
   bool step();
-  Corner assemble(double target);
-  double find_change(const Corner& corner);
-  void move(double target, double change_of_t);
+  bool assemble();
+  Shares find_change();
+  double gap_after(const Shares& shares);
+  void move(const Shares& shares);
 
-  std::vector<Vector> points_, change_, border_, along_border_;
-  double t_ = 1;
+  std::vector<Vector> points_;
+  // Newton's equations for the points, and what `longer` has to do with them and with itself.
+  BandMatrix matrix_;
+  std::vector<Vector> border_, along_border_;
+  double stiff_ = 0;
+  std::vector<Vector> change_;
+  double change_of_longer_ = 0;
+  std::array<Vector, 6> drift_;  // of the points that are not free, with longer steps
+  double longer_ = 1;
   std::vector<Box> boxes_;
   std::vector<Round> rounds_;
-  BandMatrix matrix_;
   double inequalities_ = 0;
   double gap_ = 0;      // Σ slack · multiplier
   double outside_ = 0;  // the largest f
-  double centering_ = 0;
 };
 
 }  // namespace kcs::planning

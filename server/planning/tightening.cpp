@@ -10,16 +10,14 @@
 namespace kcs::planning {
 namespace {
 
-// How often, at most; when t may be less by so little only, that ends it.
-constexpr int kTimes = 4;
-constexpr double kSteady = 4e-3;
+// How often, at most; when the time may be less by so little only, that ends it.
+constexpr int kTimes = 6;
+constexpr double kSteady = 2e-3;
 // Fewer pieces leave no freedom.
 constexpr std::size_t kFewestPieces = 8;
-// The steps become longer by this than the program says, which is solved again with them.
-constexpr double kSpare = 1.001;
 // The share of the tolerance that is taken. Bounds are looked at step by step, the tolerance is kept everywhere: around
-// what left it, so many steps on either side, the share is less.
-constexpr double kShare = 0.98, kShareCloser = 0.94;
+// what left it, so many steps on either side, the share becomes less by this factor.
+constexpr double kShare = 0.985, kCloser = 0.94;
 constexpr std::size_t kAround = 2;
 
 double square(double value) { return value * value; }
@@ -47,13 +45,13 @@ TimeSpline Tightening::run(const TimeSpline& spline, std::span<const StretchPiec
     bound_motion(path_, limits_, spline_, shares_of_tolerance_, fit_);
     if (!fit_.solve(stop_)) break;
     spline_.points.assign(fit_.points().begin(), fit_.points().end());
+    set_step(spline_.step * fit_.longer());
     if (keeps_everything()) {
       if (spline_.step < best.step) best = spline_;
-      if (1 - fit_.t() < kSteady) break;
+      if (1 - fit_.longer() < kSteady) break;
     } else {
       look_closer();
     }
-    set_step(spline_.step * std::cbrt(fit_.t()) * kSpare);
   }
   return best;
 }
@@ -72,7 +70,7 @@ void Tightening::look_closer() {
   for (std::size_t i = 0; i < place.size(); ++i) {
     if (place[i] <= 1) continue;
     const std::size_t from = std::max(i, kAround) - kAround, to = std::min(place.size(), i + kAround + 1);
-    for (std::size_t k = from; k < to; ++k) shares_of_tolerance_[k] = kShareCloser;
+    for (std::size_t k = from; k < to; ++k) shares_of_tolerance_[k] *= kCloser;
   }
 }
 

@@ -16,6 +16,14 @@ namespace {
 constexpr std::size_t kPieces = 120;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
+// The three points of either end, as they are with steps so far apart at the end's speed, mm.
+void set_ends(std::vector<Vector>& points, double length, double apart) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    points[i] = (static_cast<double>(i) - 1) * apart * Vector::UnitX();
+    points[points.size() - 3 + i] = length * Vector::UnitX() + points[i];
+  }
+}
+
 // A steady motion along x from rest to rest, or what would be one: all points but the ends are at equal distances.
 std::vector<Vector> straight(double length) {
   std::vector<Vector> points;
@@ -31,11 +39,14 @@ struct Limits {
   double speed = kNoLimit, acceleration = kNoLimit, jerk = kNoLimit;
 };
 
-// How long it takes if steps are a millisecond long at first, and after so many solutions.
-double least_time(std::vector<Vector> points, const Limits& limits, int times = 6) {
+// How long it takes if steps are a millisecond long at first, and after so many solutions. It begins and ends at a
+// speed, mm/s.
+double least_time(std::vector<Vector> points, const Limits& limits, int times = 6, double end_speed = 0) {
   double step = 1e-3;
+  const double length = points[points.size() - 2].x() - points[1].x();
   QuickestFit fit;
   for (int i = 0; i < times; ++i) {
+    set_ends(points, length, end_speed * step);
     fit.begin(points);
     for (std::size_t j = 0; j + 3 < points.size(); ++j) {
       fit.limit_axes({j, 4, {-1, 3, -3, 1}}, Vector::Constant(limits.jerk * std::pow(step, 3)),
@@ -51,7 +62,7 @@ double least_time(std::vector<Vector> points, const Limits& limits, int times = 
     for (std::size_t j = 0; j < points.size(); ++j) fit.place({j, 1, {1}}, {Vector::Zero(), Vector::UnitX(), 0.01});
     EXPECT_TRUE(fit.solve({})) << i;
     points.assign(fit.points().begin(), fit.points().end());
-    step *= std::cbrt(fit.t());
+    step *= fit.longer();
   }
   return step * kPieces;
 }
@@ -69,6 +80,14 @@ TEST(QuickestFit, FindsTheLeastTimeUnderAnAccelerationLimit) {
 TEST(QuickestFit, FindsTheLeastTimeUnderASpeedLimit) {
   const double exact = 10 / 100.0 + 100 / 2000.0;
   EXPECT_NEAR(least_time(straight(10), {.speed = 100, .acceleration = 2000, .jerk = 1e9}), exact, 0.02 * exact);
+}
+
+// The tool travels so fast at the ends that a step's change by a thousandth moves their points by more than jerk moves
+// them in a step.
+TEST(QuickestFit, FindsTheLeastTimeBetweenEndsInMotion) {
+  const double speed = 80, jerk = 1e5, exact = 0.1;
+  const double length = speed * exact + jerk * exact * exact * exact / 32;
+  EXPECT_NEAR(least_time(straight(length), {.jerk = jerk}, 3, speed), exact, 0.01 * exact);
 }
 
 // Its points begin far from where they must be.

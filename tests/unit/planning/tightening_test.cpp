@@ -59,6 +59,23 @@ TEST(Tightening, TravelsCrowdedCornersFaster) { EXPECT_GT(mean_gain(0.3, 0.5), 0
 
 TEST(Tightening, TravelsCornersFarFromEachOtherFaster) { EXPECT_GT(mean_gain(1, 3), 0.015); }
 
+// In motion where it ends, and beside a corner or wherever else that happens to be.
+TEST(Tightening, TravelsEachOfManyPartsFaster) {
+  std::size_t parts = 0, hardly = 0;
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    const LegPath path = crowded(seed, 0.5, 1.5);
+    Stretch stretch = stretch_of(path, Effort::kUsual);
+    if (stretch.failed()) continue;
+    const std::size_t part = stretch.pieces().size() * 2 / 3;
+    const double before = stretch.pieces()[part].phase.start_time;
+    stretch.tighten(part);
+    ++parts;
+    if (stretch.pieces()[part].phase.start_time > 0.995 * before) ++hardly;
+  }
+  EXPECT_GE(parts, 30U);
+  EXPECT_LE(hardly, parts / 20);
+}
+
 TEST(Tightening, KeepsLimitsAndTheTolerance) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const LegPath path = crowded(seed, 0.1, 1);
