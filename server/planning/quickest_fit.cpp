@@ -143,9 +143,11 @@ void QuickestFit::set_slacks() {
 bool QuickestFit::step() {
   if (!assemble()) return false;
   for_all_sides([](auto& side) { side.target.setZero(); });
-  const double target = cube(gap_after(find_change()) / gap_) * gap_ / inequalities_;
+  find_change();
+  const double target = cube(gap_after(shares_of_change()) / gap_) * gap_ / inequalities_;
   for_all_sides([&](auto& side) { side.target = target - side.slack_change * side.multiplier_change; });
-  move(find_change());
+  find_change();
+  move(shares_of_change());
   return std::isfinite(longer_);
 }
 
@@ -188,8 +190,8 @@ bool QuickestFit::assemble() {
   return true;
 }
 
-// To come to the targets.
-QuickestFit::Shares QuickestFit::find_change() {
+// Of the points and `longer`, to come to the targets.
+void QuickestFit::find_change() {
   const std::size_t first_free = kHeldPoints, end_free = points_.size() - kHeldPoints;
   change_.assign(points_.size(), Vector::Zero());
   double forced = -1;  // what `longer` itself is worth
@@ -213,6 +215,10 @@ QuickestFit::Shares QuickestFit::find_change() {
   change_of_longer_ = forced / stiff_;
   for (std::size_t i = first_free; i < end_free; ++i) change_[i] -= change_of_longer_ * along_border_[i];
   hold();
+}
+
+// With what the slacks and multipliers have to change.
+QuickestFit::Shares QuickestFit::shares_of_change() {
   Shares shares;
   const auto find = [&](auto& side, const auto& change_of_excess) {
     side.slack_change = -(side.excess + side.slack) - change_of_excess;

@@ -86,7 +86,8 @@ class QuickestFit {
   void set_slacks();
   bool step();
   bool assemble();
-  Shares find_change();
+  void find_change();
+  Shares shares_of_change();
   double gap_after(const Shares& shares);
   void move(const Shares& shares);
 
