@@ -12,9 +12,10 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-void BandMatrix::reset(std::size_t points) {
+void BandMatrix::reset(std::size_t points, double diagonal) {
   size_ = kAxes * points;
-  columns_.assign(size_ + kBand, Column{});
+  columns_.assign(size_, Column{diagonal});
+  columns_.resize(size_ + kBand);
 }
 
 void BandMatrix::add(const PointSum& sum, const Eigen::Matrix3d& block) {

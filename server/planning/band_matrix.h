@@ -34,8 +34,8 @@ struct PointSum {
 // and no time.
 class BandMatrix {
  public:
-  // All zero.
-  void reset(std::size_t points);
+  // All zero but the diagonal: what nothing is added to stays solvable.
+  void reset(std::size_t points, double diagonal = 0);
 
   // Adds weights_i · weights_k · block where the points i and k of the sum meet: the second derivative of a function of
   // the sum is made of these. `block` is symmetric.

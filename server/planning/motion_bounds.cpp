@@ -14,6 +14,9 @@ namespace {
 // Of each limit so much is taken: what is fitted keeps it nearly, and must keep it in the end.
 constexpr double kShareOfLimits = 0.9985;
 
+// Less than this share of a limit now will not become more than all of it: it is left out, for less work.
+constexpr double kNear = 0.75;
+
 // So many steps before and after it is nearest to a corner, the tool is looked at as well: it turns most there.
 constexpr std::array<double, 2> kBesideCorner{0.35, 0.7};
 
@@ -41,6 +44,10 @@ Vector share_of(const Vector& limit, double unit, std::size_t axes) {
   return result;
 }
 
+double largest_share(const Vector& value, const Vector& limit) {
+  return value.cwiseQuotient(limit).cwiseAbs().maxCoeff();
+}
+
 void bound_limits(const StretchPath& path, const motion::AxisLimits& limits, const TimeSpline& spline,
                   QuickestFit& fit) {
   using Kind = QuickestFit::Kind;
@@ -50,12 +57,19 @@ void bound_limits(const StretchPath& path, const motion::AxisLimits& limits, con
                acceleration = share_of(limits.acceleration, square(step), limits.axes),
                jerk = share_of(limits.jerk, cube(step), limits.axes);
   for (std::size_t j = 0; j + 3 < size; ++j) fit.limit_axes(third_difference(j), jerk, Kind::kJerk);
-  for (std::size_t j = 0; j + 2 < size; ++j) fit.limit_axes(second_difference(j), acceleration, Kind::kAcceleration);
+  for (std::size_t j = 0; j + 2 < size; ++j) {
+    const PointSum change = second_difference(j);
+    if (largest_share(change.of(spline.points), acceleration) < kNear) continue;
+    fit.limit_axes(change, acceleration, Kind::kAcceleration);
+  }
   for (std::size_t j = 0; j + 1 < size; ++j) {
+    const PointSum move = first_difference(j);
     const double feed =
+        kShareOfLimits * step *
         path.feed_between(spline.ways[std::max<std::size_t>(j, 1) - 1], spline.ways[std::min(size - 1, j + 2)]);
-    fit.limit_speed(first_difference(j), kShareOfLimits * feed * step);
-    if (speed.minCoeff() < feed * step) fit.limit_axes(first_difference(j), speed, Kind::kSpeed);
+    const Vector moved = move.of(spline.points);
+    if (moved.norm() >= kNear * feed) fit.limit_speed(move, feed);
+    if (largest_share(moved, speed) >= kNear) fit.limit_axes(move, speed, Kind::kSpeed);
   }
 }
 

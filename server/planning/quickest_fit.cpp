@@ -18,6 +18,10 @@ constexpr double kGap = 5e-3, kOutside = 1e-3;
 // A step takes slacks and multipliers no nearer to zero than by this share.
 constexpr double kNearest = 0.99;
 
+// What holds a point in a direction in which nothing else does, as across a plane that a machine of two axes cannot
+// leave. Far less than what does.
+constexpr double kHold = 1e-9;
+
 template <class Side>
 typename Side::Numbers stiffness(const Side& side) {
   return side.multiplier / side.slack;
@@ -154,7 +158,7 @@ bool QuickestFit::step() {
 // Newton's equations, without the slacks and multipliers, which follow from the points and `longer`. That one is in
 // nearly every equation: it is taken out of them by its border.
 bool QuickestFit::assemble() {
-  matrix_.reset(points_.size());
+  matrix_.reset(points_.size(), kHold);
   border_.assign(points_.size(), Vector::Zero());
   stiff_ = 0;
   for (const Box& box : boxes_) {

@@ -11,7 +11,7 @@ namespace kcs::planning {
 namespace {
 
 // How often, at most; when the time may be less by so little only, that ends it.
-constexpr int kTimes = 6;
+constexpr int kTimes = 8;
 constexpr double kSteady = 2e-3;
 // Fewer pieces leave no freedom.
 constexpr std::size_t kFewestPieces = 8;
