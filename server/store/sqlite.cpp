@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "server/store/errors.h"
@@ -35,6 +36,22 @@ fs::path state_directory() {
   throw StoreError(
       "no place for the store: neither STATE_DIRECTORY nor XDG_STATE_HOME nor HOME is set; "
       "give one as database = \"sqlite:PATH\"");
+}
+
+// How long to let others go on before the journal is asked for again.
+constexpr std::chrono::milliseconds kPause{5};
+
+// SQLite waits for its turn to write, but not here: it reads already, and might wait for somebody who waits for it.
+void keep_log(soci::session& session, std::chrono::milliseconds timeout) {
+  const auto last_try = std::chrono::steady_clock::now() + timeout;
+  for (;; std::this_thread::sleep_for(kPause)) {
+    try {
+      session << "pragma journal_mode = wal";
+      return;
+    } catch (const soci::sqlite3_soci_error& error) {
+      if (error.result() != SQLITE_BUSY || std::chrono::steady_clock::now() >= last_try) throw;
+    }
+  }
 }
 
 // Programs are trade secrets: the file is its user's alone. SQLite gives its side files the same rights.
@@ -73,7 +90,7 @@ void Sqlite::open(soci::session& session) const {
   session << "pragma auto_vacuum", soci::into(is_incremental);
   // Saying it again would wait for a turn to write.
   if (!is_incremental) session << "pragma auto_vacuum = incremental";
-  session << "pragma journal_mode = wal";
+  keep_log(session, timeout_);
   session << "pragma synchronous = full";  // without it a power failure may take the last transactions
   session << fmt::format("pragma journal_size_limit = {}", kKeptLog);
   session << "pragma secure_delete = fast";  // Debian's default writes as much to remove a request as to keep it

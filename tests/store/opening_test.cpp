@@ -1,9 +1,11 @@
 // How a store opens, and what it says if it cannot.
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "server/store/sqlite.h"
@@ -88,6 +90,23 @@ TEST_F(OpeningSqlite, MakesFoldersAndAFileThatOthersCannotRead) {
     ASSERT_EQ(stat((deep.string() + ending).c_str(), &found), 0) << ending;
     EXPECT_EQ(found.st_mode & 0777, 0600) << ending;
   }
+}
+
+// SQLite itself does not wait there for who writes at that moment, as another server that opens the file does.
+TEST_F(OpeningSqlite, WaitsUntilItsJournalCanBeChanged) {
+  sqlite3* opened = nullptr;
+  ASSERT_EQ(sqlite3_open(file().c_str(), &opened), SQLITE_OK);
+  const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> other(opened, &sqlite3_close);
+  const auto run = [&](const char* statement) { return sqlite3_exec(opened, statement, nullptr, nullptr, nullptr); };
+  ASSERT_EQ(run("pragma auto_vacuum = incremental; create table other (value integer); begin immediate"), SQLITE_OK);
+  StoreSettings impatient = at(file());
+  impatient.timeout = std::chrono::milliseconds(100);
+  EXPECT_THAT(failure<StoreUnavailable>(impatient), HasSubstr("try again later"));
+  const std::jthread writes([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    run("rollback");
+  });
+  EXPECT_EQ(failure<StoreUnavailable>(at(file())), "");
 }
 
 TEST_F(OpeningSqlite, SaysWhatIsNoDatabase) {
