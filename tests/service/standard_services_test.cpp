@@ -58,14 +58,11 @@ TEST(Health, TellsThatTheServerAndItsServiceAreServing) {
 
 TEST(Health, TellsThatAStoppingServerIsNotServing) {
   TestServer server;
+  const std::string name = server.create({request(options()), request(zigzag(200))}).message.name();
   Call call;
-  v1::Plan plan;
-  const auto upload = server.stub().CreatePlan(&call, &plan);
-  upload->Write(request(options()));
-  ASSERT_TRUE(eventually([&] {
-    RawCall check(server, "/grpc.health.v1.Health/Check");
-    return check.ask(health_request("kcs.v1.PlanningService")) == "\x08\x01";
-  }));
+  const auto reader = server.stub().StreamSetpoints(&call, setpoints(name, 1e-5));
+  v1::SetpointBatch batch;
+  ASSERT_TRUE(reader->Read(&batch)) << "no call is under way that the server would wait for";
   std::thread stopping([&] { server.server().stop(kDeadline); });
   for (const std::string service : {"", "kcs.v1.PlanningService"}) {
     EXPECT_TRUE(eventually([&] {
@@ -75,7 +72,7 @@ TEST(Health, TellsThatAStoppingServerIsNotServing) {
         << service;
   }
   call.TryCancel();
-  upload->Finish();
+  reader->Finish();
   stopping.join();
 }
 
