@@ -13,10 +13,6 @@ namespace {
 // As near as this is on the point, mm, beside what coordinates can tell.
 constexpr double kOnPoint = 1e-9;
 
-bool stands(const Phase& phase) {
-  return phase.start.velocity.isZero(0) && phase.start.acceleration.isZero(0) && phase.jerk.isZero(0);
-}
-
 }  // namespace
 
 bool Route::goes_on_with(const SegmentRange& pieces) const {
@@ -50,7 +46,7 @@ std::string Route::leave_behind(const Course& course, std::uint32_t first) {
 
 void Route::see_joints(const Phase& phase, const State& end, const Course& course, const SegmentRange& pieces,
                        std::span<const double> mitres) {
-  const double standing = stands(phase) ? phase.duration : 0;
+  const double standing = phase.rests() ? phase.duration : 0;
   if (pieces.first > 0) meet(pieces.first - 1, course, phase.start, standing);
   meet(pieces.last, course, end, standing);
   const Curve curve = Curve::between(phase.start, end, phase.duration);

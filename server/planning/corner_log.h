@@ -18,7 +18,6 @@ class CornerLog {
   // Time lost since the last corner, s: counts there, if there is one, or at the next one.
   void lose_after(double time);
   void lose_before(double time) { before_next_ += time; }
-  void forget_loss() { before_next_ = 0; }
   // Nothing more comes.
   void finish();
 

@@ -12,9 +12,8 @@ namespace {
 // Where the sum of two directions is shorter, the path turns back: no plane tells the way there from the way back.
 constexpr double kReversal = 0.1;
 
-bool is_rest(const motion::Phase& phase) {
-  return phase.start.velocity.isZero(0) && phase.start.acceleration.isZero(0) && phase.jerk.isZero(0);
-}
+// Corners are kept where the path has turned by as much as this, the cosine of 30°, since the one before.
+constexpr double kTurned = 0.866;
 
 }  // namespace
 
@@ -41,7 +40,9 @@ void MarkerTimes::put(const Marker& marker) {
 }
 
 void MarkerTimes::end_path() {
-  if (!here_.items.empty()) places_.push_back(std::exchange(here_, {}));
+  const bool turned = here_.after.dot(direction_) < kTurned;
+  if (turned) direction_ = here_.after;
+  if (turned || !here_.items.empty()) places_.push_back(std::exchange(here_, {}));
 }
 
 const std::vector<MarkerAt>& MarkerTimes::follow(const motion::Phase& phase) {
@@ -49,6 +50,7 @@ const std::vector<MarkerAt>& MarkerTimes::follow(const motion::Phase& phase) {
   while (!places_.empty()) {
     const std::optional<double> time = arrival(places_.front(), phase);
     if (!time) break;
+    passed_ = std::max(passed_, *time);
     give(*time);
   }
   return given_;
@@ -71,10 +73,10 @@ void MarkerTimes::give(double time) {
 }
 
 // When the phase comes to the place; nothing if it ends before.
-std::optional<double> MarkerTimes::arrival(const Place& place, const motion::Phase& phase) {
+std::optional<double> MarkerTimes::arrival(const Place& place, const motion::Phase& phase) const {
   if (phase.segments.first >= place.segments) return phase.start_time;
   if (phase.segments.last + 1 < place.segments) return {};
-  if (place.stops) return is_rest(phase) ? std::optional(phase.start_time) : std::nullopt;
+  if (place.stops) return phase.rests() ? std::optional(phase.start_time) : std::nullopt;
   const Vector normal = place.before + place.after;
   const motion::State& start = phase.start;
   std::array<double, 4> beyond{};  // mm, of time; at a reversal the speed back, mm/s
@@ -85,9 +87,10 @@ std::optional<double> MarkerTimes::arrival(const Place& place, const motion::Pha
     beyond = {-start.velocity.dot(place.before), -start.acceleration.dot(place.before),
               -phase.jerk.dot(place.before) / 2, 0};
   }
-  const double t = phase.duration;
-  if (!(beyond[0] + t * (beyond[1] + t * (beyond[2] + t * beyond[3])) > 0)) return {};
-  return phase.start_time + (beyond[0] < 0 ? motion::root_between(beyond, 0, t) : 0);
+  const auto at = [&beyond](double t) { return beyond[0] + t * (beyond[1] + t * (beyond[2] + t * beyond[3])); };
+  const double end = phase.duration, begin = std::clamp(passed_ - phase.start_time, 0.0, end);
+  if (!(at(end) > 0)) return {};
+  return phase.start_time + (at(begin) < 0 ? motion::root_between(beyond, begin, end) : begin);
 }
 
 }  // namespace kcs::planning

@@ -16,7 +16,8 @@ namespace kcs::planning {
 // Takes the path and the motion along it, both in order, and gives the path's markers and the beginnings and ends of
 // its dwells, in order, each at its time. Where the tool rests, that is when it has come to rest, and as long after
 // that as it dwells before the marker. Where it goes on, that is when it passes the plane through the place that halves
-// the angle of the path: the middle of a corner that is cut. Memory: that of the markers ahead of the motion.
+// the angle of the path: the middle of a corner that is cut. It has to pass the corners before, one after the other: a
+// place behind a sharp one may look passed from before it. Memory: that of the markers and corners ahead of the motion.
 class MarkerTimes {
  public:
   // The next segment, which starts at `from` (mm); moves: it has a length.
@@ -50,10 +51,13 @@ class MarkerTimes {
 
   void put(const Marker& marker);
   void give(double time);
-  static std::optional<double> arrival(const Place& place, const motion::Phase& phase);
+  std::optional<double> arrival(const Place& place, const motion::Phase& phase) const;
 
-  std::deque<Place> places_;
-  Place here_;  // where the path has come to
+  std::deque<Place> places_;  // with markers, or corners
+  Place here_;                // where the path has come to
+  // Of the path at the last corner that was kept.
+  Vector direction_ = Vector::Zero();
+  double passed_ = 0;  // when the tool came to the last place, s
   std::size_t waiting_ = 0;
   double last_ = 0;  // s, of those that were given
   std::vector<MarkerAt> given_;

@@ -57,6 +57,16 @@ TEST(MarkerTimes, AtACornerThatIsCutIsItsMiddle) {
   }
 }
 
+TEST(MarkerTimes, BehindASharpCornerIsNotBeforeIt) {
+  for (const double behind : {0.02, 0.05, 0.1, 0.5}) {
+    const Vector place(10 - 0.6 * behind, 0.8 * behind, 0);
+    const Plan made = plan(path_of({to(10, 0), to(place.x(), place.y(), {.marker = kFlood}), to(4, 8)}), options());
+    ASSERT_EQ(made.markers.size(), 1u);
+    const Vector there = at(made, made.markers[0].time).position;
+    EXPECT_LT((there - place).norm(), 4 * kTolerance) << behind;
+  }
+}
+
 TEST(MarkerTimes, WhereThePathTurnsBackIsItsFarthestPlace) {
   const Plan made = plan(path_of({to(20, 0, {.marker = kFlood}), to(0, 0)}), options());
   ASSERT_EQ(made.markers.size(), 1u);
