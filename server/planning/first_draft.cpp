@@ -7,7 +7,7 @@
 namespace kcs::planning {
 namespace {
 
-constexpr double kShareOfAcceleration = 0.5;
+constexpr double kShareOfAcceleration = 0.5, kShareOfOwn = 0.6;
 constexpr double kSlowest = 1e-3;   // mm/s
 constexpr double kStraight = 1e-6;  // |D| of a corner that is none
 // A corner's turn is spread over so many tolerances of the way at least.
@@ -17,24 +17,18 @@ constexpr double kSeen = 2;
 // What the search begins with: points are held firmly enough to stay near to corners.
 constexpr double kPlace = 1e-3, kJerk = 1, kAcceleration = 1e-4;
 
-// A draft of more points than this is not worth the search.
-constexpr double kMostPoints = 5'000;
-
 // A part of the draft between two corners, or the ends.
 struct Part {
   double from, to;    // ways, mm
   double start, end;  // speeds, mm/s
   double feed;
+  double acceleration;  // mm/s²
 };
 
 class Draft {
  public:
   Draft(const StretchPath& path, const motion::AxisLimits& limits, const MotionRange& range, double step)
-      : path_(path), range_(range), step_(step) {
-    const auto axes = static_cast<Eigen::Index>(limits.axes);
-    acceleration_ = kShareOfAcceleration * limits.acceleration.head(axes).minCoeff();
-    jerk_ = limits.jerk.head(axes).minCoeff();
-  }
+      : path_(path), limits_(limits), range_(range), step_(step) {}
 
   MotionDraft run() {
     divide();
@@ -50,8 +44,17 @@ class Draft {
   }
 
  private:
-  double reached(double speed, const Part& part) const {
-    return std::sqrt(speed * speed + 2 * acceleration_ * (part.to - part.from));
+  // What all axes allow or, of what those allow that move, a share: rather too slow than too fast.
+  double roughly(const Vector& limit, const Vector& direction) const {
+    return std::max(limit.head(static_cast<Eigen::Index>(limits_.axes)).minCoeff(),
+                    kShareOfOwn * roughly_along(limit, direction, limits_.axes));
+  }
+  double acceleration(const Vector& direction) const {
+    return kShareOfAcceleration * roughly(limits_.acceleration, direction);
+  }
+
+  static double reached(double speed, const Part& part) {
+    return std::sqrt(speed * speed + 2 * part.acceleration * (part.to - part.from));
   }
 
   void divide() {
@@ -60,30 +63,32 @@ class Draft {
     double from = range_.from, speed = range_.at_most.entry;
     for (; leg + 1 < legs.size() && path_.way(leg + 1) < range_.to; ++leg) {
       const double corner = corner_speed(leg);
-      parts_.push_back({from, path_.way(leg + 1), speed, corner, legs[leg].feed});
+      parts_.push_back({from, path_.way(leg + 1), speed, corner, legs[leg].feed, acceleration(legs[leg].direction)});
       from = path_.way(leg + 1);
       speed = corner;
     }
-    parts_.push_back({from, range_.to, speed, range_.at_most.exit, legs[leg].feed});
+    parts_.push_back({from, range_.to, speed, range_.at_most.exit, legs[leg].feed, acceleration(legs[leg].direction)});
   }
 
   // At the end of the leg: that of a corner with interrupted acceleration, or of a bend if it is one of many.
   double corner_speed(std::size_t leg) const {
     const Leg &in = path_.legs()[leg], &out = path_.legs()[leg + 1];
     const double tolerance = std::min(in.tolerance, out.tolerance), seen = kSeen * tolerance;
-    const double turn = std::max(kStraight, turn_around(leg, seen));
-    const double time = std::cbrt(6 * tolerance / (turn * jerk_));
+    const Vector around = turn_around(leg, seen), across = around.normalized();
+    const double turn = std::max(kStraight, around.norm());
+    const double jerk = roughly(limits_.jerk, across);
+    const double time = std::cbrt(6 * tolerance / (turn * jerk));
     const double length = std::max(seen, (in.length + out.length) / 2) + kSpread * tolerance;
-    return std::min({jerk_ * time * time / turn, std::sqrt(acceleration_ * length / turn), in.feed, out.feed});
+    return std::min({jerk * time * time / turn, std::sqrt(acceleration(across) * length / turn), in.feed, out.feed});
   }
 
-  // |D| of the corner at the end of the leg, if only so much of the path is seen on either side, mm.
-  double turn_around(std::size_t leg, double seen) const {
+  // D of the corner at the end of the leg, if only so much of the path is seen on either side, mm.
+  Vector turn_around(std::size_t leg, double seen) const {
     const double way = path_.way(leg + 1);
     const auto at = [&](double place) { return path_.at(path_.leg_at(place, leg), place); };
     const Vector& corner = path_.corners()[leg + 1];
     const Vector before = corner - at(way - seen), after = at(way + seen) - corner;
-    return (after.normalized() - before.normalized()).norm();
+    return after.normalized() - before.normalized();
   }
 
   MotionDraft sample() const {
@@ -115,8 +120,8 @@ class Draft {
     const double length = part.to - part.from;
     const double mean = (part.start * part.start + part.end * part.end) / 2;
     const double peak =
-        std::max({std::min(part.feed, std::sqrt(mean + acceleration_ * length)), part.start, part.end, kSlowest});
-    const double up_time = (peak - part.start) / acceleration_, down_time = (peak - part.end) / acceleration_;
+        std::max({std::min(part.feed, std::sqrt(mean + part.acceleration * length)), part.start, part.end, kSlowest});
+    const double up_time = (peak - part.start) / part.acceleration, down_time = (peak - part.end) / part.acceleration;
     const double up = up_time * (peak + part.start) / 2, down = down_time * (peak + part.end) / 2;
     return {peak, up_time, up, std::max(0.0, length - up - down) / peak, down_time};
   }
@@ -128,8 +133,8 @@ class Draft {
     while (time < total) {
       const double left = total - time;
       double way = profile.up + (time - profile.up_time) * profile.peak;
-      if (time < profile.up_time) way = time * (part.start + acceleration_ * time / 2);
-      if (left < profile.down_time) way = length - left * (part.end + acceleration_ * left / 2);
+      if (time < profile.up_time) way = time * (part.start + part.acceleration * time / 2);
+      if (left < profile.down_time) way = length - left * (part.end + part.acceleration * left / 2);
       ways.push_back(part.from + std::clamp(way, 0.0, length));
       time += step_;
     }
@@ -137,9 +142,9 @@ class Draft {
   }
 
   const StretchPath& path_;
+  const motion::AxisLimits& limits_;
   const MotionRange& range_;
   double step_;
-  double acceleration_, jerk_;
   std::vector<Part> parts_;
 };
 

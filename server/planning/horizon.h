@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "server/motion/limits.h"
 #include "server/planning/leg_queue.h"
@@ -10,7 +11,8 @@
 namespace kcs::planning {
 
 // Counted in the time that the tool would take at the feed and in sharp corners, and in legs: first what may be
-// settled, then what is looked at beyond it. Looks at each leg once while the path arrives.
+// settled, then what is looked at beyond it. Where it will be far slower than the feed, also in the time that it takes
+// then. Looks at each leg once while the path arrives.
 class Horizon {
  public:
   // share: of the usual distances, > 0. settled: the share of that of the time that may be settled, > 0. legs: so many
@@ -31,6 +33,8 @@ class Horizon {
   void see(const Leg& leg);
   // Of time, with the corner before the leg.
   double steps_of(const Leg& leg);
+  void reach(const Leg& leg);
+  void look_farther(const Leg& leg);
   bool beyond() const;
 
   motion::AxisLimits limits_;
@@ -39,7 +43,12 @@ class Horizon {
   std::size_t legs_ = 0, until_ = 0;
   bool ahead_ = false;          // what may be settled has come; the rest is looked at
   double steps_ = 0, way_ = 0;  // steps of time; mm
-  double stopping_way_ = 0;     // mm
+  double slow_steps_ = 0;       // of time, at the speeds that bends allow
+  double segments_ = 0;
+  std::optional<Leg> last_leg_;
+  double speed_ = 0;         // that the tool may reach on the last leg, mm/s
+  double first_feed_ = 0;    // where what is settled ends, mm/s
+  double stopping_way_ = 0;  // from there, mm
   SharpTurns turns_;
 };
 

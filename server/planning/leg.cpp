@@ -15,4 +15,8 @@ double along(const Vector& limit, const Vector& direction, std::size_t axes) {
   return smallest;
 }
 
+double roughly_along(const Vector& limit, const Vector& direction, std::size_t axes) {
+  return std::min(along(limit, direction, axes), limit.head(static_cast<Eigen::Index>(axes)).maxCoeff());
+}
+
 }  // namespace kcs::planning

@@ -40,4 +40,8 @@ struct LegPath {
 // What the axes allow along `direction`: the smallest limit_i / |direction_i|; +infinity for a zero vector.
 double along(const Vector& limit, const Vector& direction, std::size_t axes);
 
+// The same, but no more than the greatest limit of an axis: for estimates, which need not know that along a diagonal
+// axes allow more together, but must not count an axis that hardly moves.
+double roughly_along(const Vector& limit, const Vector& direction, std::size_t axes);
+
 }  // namespace kcs::planning

@@ -68,14 +68,16 @@ double ramp_time(const motion::AxisLimits& limits) {
 // s.
 double hold_time(double tolerance, const motion::AxisLimits& limits) {
   constexpr double kBends = 4;
-  const double acceleration = limits.acceleration.head(static_cast<Eigen::Index>(limits.axes)).minCoeff();
+  const double acceleration = limits.acceleration.head(static_cast<Eigen::Index>(limits.axes)).maxCoeff();
   return std::max(ramp_time(limits), kBends * std::sqrt(tolerance / acceleration));
 }
 
 double step_of_time(double share_of_corner, double tolerance, const motion::AxisLimits& limits) {
   constexpr double kShareOfRamp = 0.25;
-  const double jerk = limits.jerk.head(static_cast<Eigen::Index>(limits.axes)).maxCoeff();
-  return std::min(kShareOfRamp * ramp_time(limits), share_of_corner * std::cbrt(6 * tolerance / jerk));
+  const auto axes = static_cast<Eigen::Index>(limits.axes);
+  const double of_jerk = share_of_corner * std::cbrt(6 * tolerance / limits.jerk.head(axes).maxCoeff());
+  const double of_acceleration = share_of_corner * std::sqrt(tolerance / limits.acceleration.head(axes).maxCoeff());
+  return std::min(of_jerk, std::max(kShareOfRamp * ramp_time(limits), of_acceleration));
 }
 
 // The place weights of the ends say nothing.
@@ -108,7 +110,8 @@ SmoothMotion::SmoothMotion(const StretchPath& path, const motion::AxisLimits& li
     : path_(path), limits_(limits), step_(step), stop_(stop), hold_time_(hold_time(path.tolerance(), limits)) {}
 
 bool SmoothMotion::search(const MotionRange& range, MotionDraft draft) {
-  if (draft.ways.empty()) return false;
+  // A draft may be of longer steps: those of what was found before a leg whose tolerance is far less.
+  if (draft.ways.empty() || static_cast<double>(draft.ways.size()) * draft.step > kMostPoints * step_) return false;
   range_ = range;
   missing_ = 0;
   spline_.step = draft.step;

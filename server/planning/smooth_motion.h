@@ -44,11 +44,18 @@ struct MotionDraft {
 };
 
 // The step of time that suits these limits and the tolerance (mm), s: a fraction of the time in which an axis reaches
-// its acceleration, and of the time that a corner takes.
+// its acceleration, and of the time that a corner takes, be it for want of jerk or of acceleration.
 double step_of_time(double tolerance, const motion::AxisLimits& limits);
 // A longer one, for less work (density.h). Where legs follow each other within a few steps, what is asked for changes
 // slowly, and the motion becomes as fast; where corners are rare, each takes a millisecond or two longer.
 double long_step_of_time(double tolerance, const motion::AxisLimits& limits);
+
+// The corners at the ends of a leg of more steps than this at the feed are apart: one motion through both would cost
+// more than it can win.
+constexpr double kMostSteps = 80;
+
+// A motion of more points than this is not worth its search.
+constexpr double kMostPoints = 5'000;
 
 // Planning looks at so many steps beyond what it settles, at least (horizon.h): what is found for them only leads to
 // rest, and is searched again.

@@ -31,9 +31,8 @@ constexpr double kRoomSteps = 16;
 // it takes so many steps.
 constexpr double kLeastSteps = 3;
 
-// The corners at the ends of a leg of more steps than this at the feed are apart: one motion through both would cost
-// more than it can win. At a sharp corner the tool is slow, and there is less to win.
-constexpr double kMostSteps = 80, kMostStepsSharp = 50;
+// The same as kMostSteps at a sharp corner: the tool is slow there, and there is less to win.
+constexpr double kMostStepsSharp = 50;
 
 class StageMaker {
  public:

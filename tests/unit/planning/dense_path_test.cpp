@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -282,6 +283,44 @@ TEST(DensePath, IsSmoothWhereAnAxisIsMuchWeaker) {
   const Plan result = plan(circle(), options);
   EXPECT_EQ(result.summary.overlapping, kChords - 1);
   expect_kept(result, options);
+}
+
+// Along a path that does not need it.
+TEST(DensePath, IsAsFastWhateverAnAxisCanDoThatDoesNotMove) {
+  Toolpath path;
+  Vector end = Vector::Zero();
+  double direction = 0;
+  for (int i = 0; i < 4000; ++i) {
+    direction += 0.1 * std::sin(0.013 * i);
+    end += 0.3 * Vector(std::cos(direction), std::sin(direction), 0);
+    path.segments.push_back({.end = end, .feed = 200, .tolerance = kTolerance});
+  }
+  PlanOptions options = dense_options();
+  options.limits.axes = 3;
+  const double alike = plan(path, options).summary.cycle_time;
+  options.limits.acceleration.z() = 50;
+  options.limits.jerk.z() = 1000;
+  EXPECT_LT(plan(path, options).summary.cycle_time, 1.03 * alike);
+}
+
+// The steps of time become those of the least tolerance.
+TEST(DensePath, CostsNoMemoryWhereOneToleranceIsFarLess) {
+  const auto most_memory = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  Toolpath path;
+  double angle = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const bool exact = i == 800;
+    angle += (exact ? 0.001 : 0.3) / 20;
+    path.segments.push_back(
+        {.end = {20 * std::sin(angle), 20 - 20 * std::cos(angle), 0}, .feed = kFeed, .tolerance = exact ? 1e-10 : 1});
+  }
+  const auto before = most_memory();
+  plan(path, dense_options());
+  EXPECT_LT(most_memory() - before, 50'000) << "kB";
 }
 
 TEST(DensePath, KeepsTheToleranceOfEachSegment) {

@@ -28,6 +28,31 @@ TEST(Horizon, SettlesLessThanItSees) {
 
 TEST(Horizon, SharpCornersBringItNearer) { EXPECT_LT(3 * seen(0.3, 60).legs(), seen(0.3, 3).legs()); }
 
+// A line of many points is one leg, but all its points wait for it to be settled.
+TEST(Horizon, CountsTheSegmentsOfLongLines) {
+  constexpr int kLines = 30, kPoints = 4000;
+  Toolpath path;
+  for (int line = 0; line < kLines; ++line) {
+    for (int i = 1; i <= kPoints; ++i) {
+      const double along = 0.1 * (line % 2 == 0 ? i : kPoints - i);
+      path.segments.push_back({.end = {along, 0.5 * line, 0}, .feed = 100, .tolerance = 0.05});
+    }
+    path.segments.push_back(
+        {.end = {path.segments.back().end.x(), 0.5 * (line + 1), 0}, .feed = 100, .tolerance = 0.05});
+  }
+  Horizon horizon(kOptions.limits);
+  ASSERT_TRUE(horizon.in_sight(queue_of(path, kOptions.limits)));
+  EXPECT_LT(horizon.legs(), 2U * kLines * 3 / 4);
+}
+
+// Where the tool crawls, the feed says little about how long a motion becomes.
+TEST(Horizon, IsNearWhereTheToolIsFarSlowerThanTheFeed) {
+  const AxisLimits weak = options_for(20, 1e5, ToleranceKind::kContourError, CornerStrategy::kAuto).limits;
+  Horizon horizon(weak);
+  ASSERT_TRUE(horizon.in_sight(queue_of(turning_legs(kLegs, 0.3, 5), weak)));
+  EXPECT_LT(horizon.legs(), kLegs / 2);
+}
+
 TEST(Horizon, SeesNoLessThanItIsTold) {
   const Horizon usual = seen(0.3, 3, 0.5);
   EXPECT_EQ(seen(0.3, 3, 0.5, 2 * usual.legs()).legs(), 2 * usual.legs());

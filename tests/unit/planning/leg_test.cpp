@@ -15,6 +15,12 @@ TEST(Along, IsTheWeakestAxisShare) {
   EXPECT_EQ(along(Vector(100, 200, 50), Vector(0, 0, 0), 3), INFINITY);
 }
 
+TEST(RoughlyAlong, IsNoMoreThanTheStrongestAxisAlone) {
+  EXPECT_DOUBLE_EQ(roughly_along(Vector(100, 100, 50), Vector(0.6, 0.8, 0), 3), 100);
+  EXPECT_DOUBLE_EQ(roughly_along(Vector(100, 100, 50), Vector(0, -0.6, 0.8), 3), 50 / 0.8);
+  EXPECT_DOUBLE_EQ(roughly_along(Vector(100, 100, 500), Vector(0.6, 0.8, 0), 2), 100);
+}
+
 TEST(Legs, CapTheFeedByTheAxes) {
   const LegPath legs = legs_of(path_through({{0, 0, 10}}, INFINITY, 0.01), kLimits);
   EXPECT_EQ(legs.legs[0].feed, 50);
