@@ -60,6 +60,11 @@ std::optional<CornerPlan> compare_corners(const LegPath& path, const Entry& entr
     }
     return plan;
   };
+  const auto is_better = [&](const CornerPlan& plan, const CornerPlan& than) {
+    const bool reaches = plan.speeds.back() >= end_speed;
+    if (reaches != (than.speeds.back() >= end_speed)) return reaches;
+    return travel_time(plan, entry, options.stop) < travel_time(than, entry, options.stop);
+  };
   auto best = planned(options);
   if (options.strategy != CornerStrategy::kAuto) return best;
   for (const auto strategy : {CornerStrategy::kBlended, CornerStrategy::kInterrupted, CornerStrategy::kUninterrupted,
@@ -67,7 +72,7 @@ std::optional<CornerPlan> compare_corners(const LegPath& path, const Entry& entr
     PlanOptions one = options;
     one.strategy = strategy;
     auto other = planned(one);
-    if (!other || (best && travel_time(*other, entry, one.stop) >= travel_time(*best, entry, one.stop))) continue;
+    if (!other || (best && !is_better(*other, *best))) continue;
     other->taken_apart = best && best->taken_apart;
     best = std::move(other);
   }

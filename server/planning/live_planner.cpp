@@ -128,7 +128,8 @@ Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const
   }
   if (state.acceleration < 0) state = builder.settle(leg, state);
   const CornerMotion motion{.speed = state.velocity, .acceleration = state.acceleration};
-  if (state.velocity < 0 || state.position >= leg.length || motion.level(leg.jerk) > leg.feed) {
+  if (ends_.start_speed > leg.feed || state.velocity < 0 || state.position >= leg.length ||
+      motion.level(leg.jerk) > leg.feed) {
     throw invalid("path, start_speed",
                   fmt::format("is {} mm/s with {} mm/s²: the tool would leave the first segment, or be faster than {} "
                               "mm/s, before it can change that; start where it can",
@@ -175,7 +176,13 @@ void LivePlanner::settle_next() {
                                                    "corners; start more slowly",
                                                    ends_.start_speed));
   }
-  if (!settle(std::move(section), horizon_.until())) check(fault_);
+  const double end_speed = section->end_speed();
+  if (settle(std::move(section), horizon_.until())) return;
+  if (at_end(horizon_.legs()) && end_speed < ends_.end_speed) {
+    throw invalid("path, end_speed", fmt::format("is {} mm/s, but the path is too short to get faster than {} mm/s",
+                                                 ends_.end_speed, end_speed));
+  }
+  check(fault_);
 }
 
 std::unique_ptr<Section> LivePlanner::plan(const Horizon& horizon, CornerStrategy strategy) const {
@@ -201,8 +208,7 @@ bool LivePlanner::settle(std::unique_ptr<Section> section, std::size_t until) {
     while (first == section->begin() && until + 1 < legs) first = section->cut_at(++until);
     if (first != section->begin()) cut = first;
   } else if (section->end_speed() < ends_.end_speed) {
-    throw invalid("path, end_speed", fmt::format("is {} mm/s, but the path is too short to get faster than {} mm/s",
-                                                 ends_.end_speed, section->end_speed()));
+    return false;
   }
   section->tighten(cut);
   section->build(time_);

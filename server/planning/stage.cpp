@@ -61,7 +61,9 @@ class StageMaker {
     std::size_t leg = entry_.begun ? go_on() : 0;
     while (leg < path_.legs.size()) {
       const std::size_t last = last_coupled(leg);
-      if (last == leg || alone_.contains(leg) || !add_stretch(leg, last + 1)) {
+      if (last > leg && !has_room(leg)) {
+        add_leg(leg++);
+      } else if (last == leg || alone_.contains(leg) || !add_stretch(leg, last + 1)) {
         do {
           add_leg(leg);
         } while (leg++ < last);
@@ -135,7 +137,7 @@ class StageMaker {
     return leg < needs_.size() ? needs_[leg].before : need(path_.legs[leg], {.speed = end_speed_});
   }
   bool rests_before(std::size_t leg) const { return leg == 0 ? entry_.rests : !smooth(leg - 1); }
-  bool rests_after(std::size_t leg) const { return leg == needs_.size() ? end_speed_ == 0 : !smooth(leg); }
+  bool ends_path(std::size_t leg) const { return leg == needs_.size(); }
 
   // The corners at the ends of legs i and i + 1 are taken by one motion.
   bool coupled(std::size_t i) const {
@@ -149,17 +151,18 @@ class StageMaker {
   }
 
   // What a stretch takes of a leg, mm, at whose near end it has a corner that needs `near`, and at whose far end there
-  // is one that needs `far`. All of it: the stretch begins or ends where the tool rests.
-  static double share(const Leg& leg, double near, double far, bool rests_far) {
+  // is one that needs `far`. All of it if there is no more room and nothing else wants it: the tool rests there, or the
+  // path ends.
+  static double share(const Leg& leg, double near, double far, bool all) {
     const double slack = leg.length - near - far;
     if (slack > 0) return near + std::min(kShareOfSlack * slack, kMoreRoom * near);
-    return rests_far ? leg.length : kShareOfTight * leg.length * near / (near + far);
+    return all ? leg.length : kShareOfTight * leg.length * near / (near + far);
   }
 
   void add_leg(std::size_t i) {
     throw_if_stopped(options_.stop);
     Stage stage{.leg = path_.legs[i], .first_leg = i, .last_leg = i};
-    if (i + 1 == path_.legs.size()) {
+    if (ends_path(i)) {
       if (end_speed_ > 0) stage.exit = Cornering(Passage{end_speed_});
     } else if (!path_.joints[i].stop) {
       stage.exit = choose_cornering(corner_geometry(path_.legs[i], path_.legs[i + 1], options_), options_.strategy,
@@ -184,21 +187,30 @@ class StageMaker {
 
   // How a stretch that ends on a leg ends.
   struct ExitShare {
-    double left = 0;     // of the leg, mm; 0: the tool rests at its end
+    double left = 0;     // of the leg, mm
     double at_most = 0;  // speed, mm/s
   };
 
   ExitShare exit_share(std::size_t last) const {
     const Leg& out = path_.legs[last];
-    const double left = out.length - share(out, needed_after(last), needed_before(last), rests_after(last));
-    if (left <= 0) return {};
+    const bool all = ends_path(last) || !smooth(last);
+    const double left = out.length - share(out, needed_after(last), needed_before(last), all);
+    if (left <= 0) return {0, ends_path(last) ? std::min(end_speed_, gate_speed(out, out.length)) : 0};
     return {left, gate_speed(out, out.length - left)};
   }
+
+  // Of its first leg a stretch leaves so much, mm.
+  double left_before(std::size_t first) const {
+    const Leg& in = path_.legs[first];
+    return in.length - share(in, needs_[first].before, needed_after(first), rests_before(first));
+  }
+  // It could begin behind what came before.
+  bool has_room(std::size_t first) const { return rests_before(first) || left_before(first) > taken_; }
 
   // Legs first to last; their outer ends may be left to straight stages.
   bool add_stretch(std::size_t first, std::size_t last) {
     const Leg& in = path_.legs[first];
-    const double from = in.length - share(in, needs_[first].before, needed_after(first), rests_before(first));
+    const double from = left_before(first);
     const bool rests_first = from <= taken_;
     const ExitShare exit = exit_share(last);
     const LegRange range{first, last, rests_first ? 0 : from, exit.left};
@@ -227,7 +239,7 @@ class StageMaker {
     taken_whole_ = exit.left == 0;
     taken_ = taken_whole_ ? 0 : path_.legs[last].length - exit.left;
     Stage stage{.stretch = std::move(stretch), .first_leg = first, .last_leg = last, .ends_on_joint = taken_whole_};
-    if (!taken_whole_) stage.exit = Cornering(Passage{stage.stretch->speeds().exit});
+    if (exit.at_most > 0) stage.exit = Cornering(Passage{stage.stretch->speeds().exit});
     stages_.push_back(std::move(stage));
   }
 

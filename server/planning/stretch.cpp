@@ -59,6 +59,11 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
     if (begun == nullptr) begin = draft(searched);
   }
   take(search(searched, std::move(begin)));
+  const bool misses_end = range.left == 0 && !failed() && speeds().exit < at_most.exit;
+  if (!misses_end) return;
+  // The path ends here, and somebody goes on from there: a little slower is of no use.
+  searched = motion_range({speeds().entry, at_most.exit}, true);
+  if (auto exact = search(searched, draft(searched))) take(std::move(exact));
 }
 
 MotionRange Stretch::motion_range(const EndSpeeds& at_most, bool exact) const {

@@ -191,6 +191,9 @@ INSTANTIATE_TEST_SUITE_P(
     Ends, PathThatCannotBegin,
     testing::Values(
         BadEnds{"TooFastForTheFeed", {.start_speed = 101}, "path, start_speed: is 101 mm/s"},
+        BadEnds{"TooFastForTheFeedButBraking",
+                {.start_speed = 101, .start_acceleration = -1000},
+                "path, start_speed: is 101 mm/s"},
         BadEnds{"TooFastToBrake", {.start_speed = 99}, "start more slowly"},
         BadEnds{"BeyondTheAxes", {.start_acceleration = 3000}, "path, start_acceleration: is 3000 mm/s²"},
         BadEnds{"Backwards", {.start_speed = 1, .start_acceleration = -2000}, "path, start_speed: is 1 mm/s"},
@@ -198,6 +201,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadEnds{"EndFasterThanTheFeed", {.end_speed = 101}, "may be no faster than 100"},
         BadEnds{"Nan", {.start_speed = NAN}, "path, start_speed: is nan"}),
     [](const auto& test) { return test.param.name; });
+
+// Whoever goes on from there counts on it.
+TEST(PathInMotion, EndsAsFastAsAskedForOnAShortLegOfACurve) {
+  for (const double speed : {20.0, 24.0, 30.0, 40.0, 47.0}) {
+    Toolpath path = turning_legs(30, 1, 5);
+    const std::size_t last = path.segments.size() - 1;
+    path.segments[last].end = path.start_of(last) + 0.3 * (path.segments[last].end - path.start_of(last));
+    const double at_rest = plan(path, options()).summary.cycle_time;
+    path.end_speed = speed;
+    const Plan result = plan(path, options());
+    EXPECT_DOUBLE_EQ(result.trajectory.final_state().velocity.norm(), speed);
+    EXPECT_LT(result.summary.cycle_time, at_rest) << speed;
+  }
+}
 
 TEST(PathInMotion, ExcludesRestsAtItsEnds) {
   Toolpath path = zigzag();
