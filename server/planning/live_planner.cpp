@@ -20,6 +20,16 @@ constexpr std::array<double, 3> kNearer{0.5, 0.25, 0.125};
 // Less is settled at first, for the machine waits for it.
 constexpr double kFirst = 0.5;
 
+// The first three points of a spline that begins in this state along a leg.
+TimeSpline spline_from(const Leg& leg, const motion::LinearState& state) {
+  constexpr double kStep = 1e-3;  // any will do
+  const double move = state.velocity * kStep, bend = state.acceleration * kStep * kStep;
+  const auto point = [&](double along) -> Vector { return leg.start + (state.position + along) * leg.direction; };
+  return {.step = kStep,
+          .points = {point(bend / 3 - move), point(-bend / 6), point(bend / 3 + move)},
+          .ways = {state.position - move, state.position, state.position + move}};
+}
+
 InvalidInput invalid(const char* field, std::string description) {
   return InvalidInput({{field, std::move(description)}});
 }
@@ -138,7 +148,8 @@ Entry LivePlanner::entry_in_motion(const Leg& leg, MotionBuilder& builder) const
   return {.taken = state.position,
           .motion = motion,
           .need = ramp_from(leg, leg_end(motion, leg), leg.feed).distance,
-          .rests = false};
+          .rests = false,
+          .in_motion = BegunStretch{.last = spline_from(leg, state)}};
 }
 
 // Settles the first part of what is in sight.
@@ -179,7 +190,8 @@ void LivePlanner::settle_next() {
   const double end_speed = section->end_speed();
   if (settle(std::move(section), horizon_.until())) return;
   if (at_end(horizon_.legs()) && end_speed < ends_.end_speed) {
-    throw invalid("path, end_speed", fmt::format("is {} mm/s, but the path is too short to get faster than {} mm/s",
+    throw invalid("path, end_speed", fmt::format("is {} mm/s, but the path is too short, or bends too "
+                                                 "much at its end, to get faster than {} mm/s",
                                                  ends_.end_speed, end_speed));
   }
   check(fault_);

@@ -238,6 +238,8 @@ void SmoothMotion::fit() {
     data_[i] = path_.at(leg, drawn_to_[i]);
   }
   if (range_.before != nullptr) std::copy_n(start_points_.begin(), 3, data_.begin());
+  // The motion ends along the last leg, even if that is shorter than a step.
+  for (std::size_t i = size - 3; i < size; ++i) data_[i] = path_.at(path_.legs().size() - 1, drawn_to_[i]);
   fit_.solve(weights_, !mode_.crowded, data_, spline_.points);
   for (std::size_t i = 0; i < 3; ++i) {
     spline_.points[i] = data_[i];

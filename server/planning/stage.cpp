@@ -61,9 +61,7 @@ class StageMaker {
     std::size_t leg = entry_.begun ? go_on() : 0;
     while (leg < path_.legs.size()) {
       const std::size_t last = last_coupled(leg);
-      if (last > leg && !has_room(leg)) {
-        add_leg(leg++);
-      } else if (last == leg || alone_.contains(leg) || !add_stretch(leg, last + 1)) {
+      if (last == leg || alone_.contains(leg) || !add_stretch(leg, last + 1)) {
         do {
           add_leg(leg);
         } while (leg++ < last);
@@ -152,7 +150,7 @@ class StageMaker {
 
   // What a stretch takes of a leg, mm, at whose near end it has a corner that needs `near`, and at whose far end there
   // is one that needs `far`. All of it if there is no more room and nothing else wants it: the tool rests there, or the
-  // path ends.
+  // path begins or ends.
   static double share(const Leg& leg, double near, double far, bool all) {
     const double slack = leg.length - near - far;
     if (slack > 0) return near + std::min(kShareOfSlack * slack, kMoreRoom * near);
@@ -195,40 +193,46 @@ class StageMaker {
     const Leg& out = path_.legs[last];
     const bool all = ends_path(last) || !smooth(last);
     const double left = out.length - share(out, needed_after(last), needed_before(last), all);
-    if (left <= 0) return {0, ends_path(last) ? std::min(end_speed_, gate_speed(out, out.length)) : 0};
+    if (left <= 0) return {0, ends_path(last) ? end_speed_ : 0};
     return {left, gate_speed(out, out.length - left)};
   }
 
-  // Of its first leg a stretch leaves so much, mm.
-  double left_before(std::size_t first) const {
+  // How a stretch begins.
+  struct EntryShare {
+    double left = 0;     // of its first leg, mm; 0: it begins with the leg, or where the tool is
+    double at_most = 0;  // speed, mm/s
+    const BegunStretch* in_motion = nullptr;
+  };
+
+  EntryShare entry_share(std::size_t first) const {
     const Leg& in = path_.legs[first];
-    return in.length - share(in, needs_[first].before, needed_after(first), rests_before(first));
+    const bool in_motion = first == 0 && entry_.in_motion, all = in_motion || rests_before(first);
+    const double left = in.length - share(in, needs_[first].before, needed_after(first), all);
+    if (left > taken_) return {left, gate_speed(in, in.length - left)};
+    return in_motion ? EntryShare{0, entry_.motion.speed, &*entry_.in_motion} : EntryShare{};
   }
-  // It could begin behind what came before.
-  bool has_room(std::size_t first) const { return rests_before(first) || left_before(first) > taken_; }
 
   // Legs first to last; their outer ends may be left to straight stages.
   bool add_stretch(std::size_t first, std::size_t last) {
     const Leg& in = path_.legs[first];
-    const double from = left_before(first);
-    const bool rests_first = from <= taken_;
+    const EntryShare entry = entry_share(first);
     const ExitShare exit = exit_share(last);
-    const LegRange range{first, last, rests_first ? 0 : from, exit.left};
-    const EndSpeeds at_most{rests_first ? 0 : gate_speed(in, in.length - from), exit.at_most};
-    auto stretch = std::make_shared<Stretch>(path_, range, options_, at_most);
+    const LegRange range{first, last, entry.left, exit.left};
+    auto stretch =
+        std::make_shared<Stretch>(path_, range, options_, EndSpeeds{entry.at_most, exit.at_most}, entry.in_motion);
     if (stretch->failed()) {
       alone_.insert(first);
       return false;
     }
-    if (!rests_first) {
+    if (entry.left > 0) {
       Stage stage{.leg = in,
                   .exit = Cornering(Passage{stretch->speeds().entry}),
                   .first_leg = first,
                   .last_leg = first,
                   .ends_on_joint = false};
       trim(stage.leg);
-      stage.leg.end = in.start + from * in.direction;
-      stage.leg.length -= in.length - from;
+      stage.leg.end = in.start + entry.left * in.direction;
+      stage.leg.length -= in.length - entry.left;
       stages_.push_back(std::move(stage));
     }
     add_stretch_stage(std::move(stretch), first, last, exit);

@@ -56,7 +56,7 @@ Stretch::Stretch(const LegPath& path, const LegRange& range, const PlanOptions& 
   long_steps_ = dense_ || (sparse && effort_ != Effort::kFull);
   if (!long_steps_) {
     step_ = step;
-    if (begun == nullptr) begin = draft(searched);
+    if (begun == nullptr || begun->ways.empty()) begin = draft(searched);
   }
   take(search(searched, std::move(begin)));
   const bool misses_end = range.left == 0 && !failed() && speeds().exit < at_most.exit;
@@ -137,7 +137,7 @@ void Stretch::tighten(std::size_t pieces) {
 // What was found before, as far as it did not brake yet for its own end, and a slow motion after it; or farther, until
 // the slow motion can be reached: what was found leads to rest.
 MotionDraft Stretch::draft(const MotionRange& range) const {
-  if (begun_ == nullptr) return first_draft(path_, limits_, range, step_);
+  if (begun_ == nullptr || begun_->ways.empty()) return first_draft(path_, limits_, range, step_);
   MotionDraft draft{begun_->last.step, begun_->ways, begun_->weights};
   const double enough = (draft.ways.front() + draft.ways.back()) / 2;
   std::size_t kept = 3;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -201,6 +202,35 @@ INSTANTIATE_TEST_SUITE_P(
         BadEnds{"EndFasterThanTheFeed", {.end_speed = 101}, "may be no faster than 100"},
         BadEnds{"Nan", {.start_speed = NAN}, "path, start_speed: is nan"}),
     [](const auto& test) { return test.param.name; });
+
+// A path may begin and end anywhere on a curve, on legs shorter than what the tool travels in a step of time.
+TEST(PathInMotion, BeginsAndEndsInTheMiddleOfADenseCurve) {
+  for (const double length : {0.05, 0.1, 0.3, 1.0}) {
+    for (const double speed : {10.0, 30.0, 50.0}) {
+      Toolpath path = turning_legs(static_cast<int>(60 / length), length, 180 / std::numbers::pi * length / 10);
+      for (Segment& segment : path.segments) segment.tolerance = 0.01;
+      const double at_rest = plan(path, options()).summary.cycle_time;
+      path.start_speed = path.end_speed = speed;
+      const Plan result = plan(path, options());
+      EXPECT_EQ(result.trajectory.begin()->start.position, Vector(0, 0, 0));
+      EXPECT_NEAR(result.trajectory.begin()->start.velocity.norm(), speed, 1e-9);
+      EXPECT_DOUBLE_EQ(result.trajectory.final_state().velocity.norm(), speed);
+      EXPECT_LT(result.summary.cycle_time, at_rest) << length << " mm, " << speed << " mm/s";
+    }
+  }
+}
+
+TEST(PathInMotion, BeginsAShortLegOfACurveWhileItGetsFaster) {
+  for (const double acceleration : {-1000.0, 500.0, 1500.0}) {
+    Toolpath path = turning_legs(200, 0.3, 2);
+    path.start_speed = 30;
+    path.start_acceleration = acceleration;
+    const Plan result = plan(path, options());
+    EXPECT_NEAR(result.trajectory.begin()->start.acceleration.x(), acceleration, 1e-6);
+    EXPECT_NEAR(result.trajectory.begin()->start.velocity.x(), 30, 1e-9);
+    EXPECT_LT(result.summary.cycle_time, 0.75) << acceleration;
+  }
+}
 
 // Whoever goes on from there counts on it.
 TEST(PathInMotion, EndsAsFastAsAskedForOnAShortLegOfACurve) {
