@@ -171,7 +171,8 @@ void Machine::attach(const MachineReport& first) {
   const std::lock_guard lock(mutex_);
   report_ = first;
   if (run_ && !is_over(run_->state)) {
-    start_feed();
+    // A run that it was on and knows no more is nowhere to go on with, and must not begin once more.
+    started_&& first.run != run_->name ? follow(first) : start_feed();
   } else if (run_ && first.run == run_->name) {
     orders_.emplace_back(StopOrder{.abort = true});  // it does not know yet that the run is over
   }
@@ -186,31 +187,30 @@ void Machine::drop_run() {
 }
 
 void Machine::start_feed() {
-  started_ = false;
+  started_ = report_.run == run_->name;
   orders_.clear();
-  run_->state = RunState::kWaiting;
+  run_->state = run_->hold_asked ? RunState::kHeld : RunState::kWaiting;
   feed_.emplace(plan_->plan, plan_->options.planning.limits, profile_.feed);
   feed_->set_rate(run_->rate);
   resumed_branch_ = 0;
   refused_before_ = report_.refused_batches;
-  if (report_.run != run_->name) {
+  if (!started_) {
     feed_->go_on_from({.ends = {BatchEnd{}}});
     orders_.emplace_back(StartOrder{run_->name, run_->plan, plan_->plan.start});
-    return;
+  } else {
+    feed_->go_on_from(report_.where);
+    resumed_branch_ = report_.where.branch;
+    if (report_.state != MachineState::kRunning) {  // it stands until somebody resumes it
+      feed_->pause();
+      ++resumed_branch_;
+    }
   }
-  feed_->go_on_from(report_.where);
-  resumed_branch_ = report_.where.branch;
-  if (report_.state != MachineState::kRunning) {  // it stands until somebody resumes it
-    feed_->pause();
-    ++resumed_branch_;
-  }
-  started_ = true;
   // What it was told before may not have come to it.
   if (run_->hold_asked || run_->abort_asked) {
     feed_->pause();
     orders_.emplace_back(StopOrder{.abort = run_->abort_asked});
   }
-  follow(report_);
+  if (started_) follow(report_);
 }
 
 Run Machine::hold(const std::string& name) {
