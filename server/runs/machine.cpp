@@ -106,6 +106,14 @@ bool Machine::has_refused_to_begin(const MachineReport& report) const {
   return report.state == MachineState::kHeld && report.refused_batches != refused_before_;
 }
 
+// Of a run; but what is to be dropped is dropped, whatever else has come up since.
+void Machine::forget_orders() {
+  std::erase_if(orders_, [](const Order& order) {
+    const auto* stop = std::get_if<StopOrder>(&order);
+    return stop == nullptr || !stop->abort;
+  });
+}
+
 void Machine::end_run(RunState state, std::string reason) {
   run_->state = state;
   run_->reason = std::move(reason);
@@ -114,7 +122,7 @@ void Machine::end_run(RunState state, std::string reason) {
   if (state == RunState::kFinished) run_->plan_time = run_->cycle_time;
   feed_.reset();
   plan_.reset();
-  orders_.clear();
+  forget_orders();
 }
 
 std::optional<Order> Machine::next_order(std::chrono::milliseconds patience) {
@@ -188,7 +196,7 @@ void Machine::drop_run() {
 
 void Machine::start_feed() {
   started_ = report_.run == run_->name;
-  orders_.clear();
+  forget_orders();
   run_->state = run_->hold_asked ? RunState::kHeld : RunState::kWaiting;
   feed_.emplace(plan_->plan, plan_->options.planning.limits, profile_.feed);
   feed_->set_rate(run_->rate);

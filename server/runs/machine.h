@@ -103,6 +103,7 @@ class Machine {
   void note_speed(const MachineReport& report);
   void follow(const MachineReport& report);
   bool has_refused_to_begin(const MachineReport& report) const;
+  void forget_orders();
   void end_run(RunState state, std::string reason);
 
   const MachineProfile profile_;

@@ -123,5 +123,29 @@ TEST_F(MachineTest, HasAbortedARunThatItsGatewayHasForgottenSince) {
   EXPECT_TRUE(orders_for(machine_).empty());
 }
 
+// It rests by itself, or has not begun yet, before the order to drop the run is on its way: the run would be kept.
+TEST_F(MachineTest, IsToldToDropARunThatIsAbortedWhileItComesToRest) {
+  for (const MachineState rests : {MachineState::kHeld, MachineState::kReady}) {
+    begin_second();
+    report_second(rests == MachineState::kHeld ? MachineState::kRunning : MachineState::kReady);
+    machine_.abort("machines/mill/runs/2");
+    report_second(rests);
+    EXPECT_EQ(machine_.run()->state, RunState::kAborted);
+    EXPECT_TRUE(is_told_to_drop_its_run(machine_));
+  }
+}
+
+TEST_F(MachineTest, IsToldToDropTheLastRunBeforeItBeginsTheNext) {
+  begin_second();
+  report_second(MachineState::kReady);
+  machine_.abort("machines/mill/runs/2");
+  report_second(MachineState::kReady);
+  machine_.begin({.name = "machines/mill/runs/3", .plan = "plans/x"}, make_plan());
+  const std::vector<Order> orders = orders_for(machine_);
+  ASSERT_GE(orders.size(), 2);
+  EXPECT_TRUE(is_stop(orders[0], true));
+  EXPECT_TRUE(std::holds_alternative<StartOrder>(orders[1]));
+}
+
 }  // namespace
 }  // namespace kcs::runs
