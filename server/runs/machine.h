@@ -75,6 +75,9 @@ class Machine {
   // The next order; nothing if none came up for `patience`.
   std::optional<Order> next_order(std::chrono::milliseconds patience);
 
+  // For whoever decides which run it is on: one at a time, from the first look until it is begun. What is asked of a
+  // run that it is on waits for nobody.
+  std::unique_lock<std::mutex> take_turn() { return std::unique_lock(turn_); }
   // Whether a run of this plan could begin: throws NotNow.
   void require_ready_for(const jobs::KeptPlan& plan) const;
   // Begins it, or goes on with it where the machine is, if it has said that it is on it.
@@ -107,6 +110,7 @@ class Machine {
   void end_run(RunState state, std::string reason);
 
   const MachineProfile profile_;
+  std::mutex turn_;  // before mutex_
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   MachineReport report_;

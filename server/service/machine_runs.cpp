@@ -21,8 +21,10 @@ const std::string& controller_of(const Caller& caller) { return caller.identity.
 }  // namespace
 
 runs::Run MachineRuns::begin(const Caller& caller, const std::string& machine, const std::string& plan, double rate) {
-  const Machines::MachinePointer attached = machines_.find(machine);
+  machines_.find(machine);  // nothing is planned for one that is not there
   const jobs::PlanPointer loaded = plans_.load(caller, plan);
+  const Machines::MachinePointer attached = machines_.find(machine);  // it may have come anew meanwhile
+  const auto turn = attached->take_turn();
   attached->require_ready_for(*loaded);
   // It stands without a run: what the store knows of one never came to it.
   if (const auto lost = archive_.open_run(machine)) close(*lost, store::RunRecordState::kFailed);
@@ -49,6 +51,8 @@ runs::Run MachineRuns::hold(const std::string& run) { return noted(machines_.mac
 runs::Run MachineRuns::abort(const std::string& name) {
   const Machines::MachinePointer machine = machines_.machine_of(name);
   if (machine->is_on(name)) return noted(machine->abort(name));
+  const auto turn = machine->take_turn();
+  if (machine->is_on(name)) return noted(machine->abort(name));  // it has just taken it up
   const auto record = archive_.find_run(name);
   if (!record) throw NoSuchRun(name);
   if (record->state != store::RunRecordState::kOpen) throw runs::NotNow(name + " is over");
@@ -89,12 +93,22 @@ void MachineRuns::watch(const Caller& caller, const std::string& name,
 }
 
 void MachineRuns::take_up(const Caller& caller, runs::Machine& machine, const std::string& name) {
-  const auto record = archive_.find_run(name);
-  if (!record || record->state != store::RunRecordState::kOpen) return machine.drop_run();
+  const auto known = open_run(name);
+  if (!known) return machine.drop_run();
   Caller of_run = caller;
   of_run.identity = {.owner = name, .roles = {}};  // to which the plan belongs as well
-  machine.begin(decode_record(*record), plans_.load(of_run, record->plan));
+  const jobs::PlanPointer plan = plans_.load(of_run, known->plan);
+  const auto turn = machine.take_turn();
+  const auto record = open_run(name);  // which may have been aborted meanwhile
+  if (!record) return machine.drop_run();
+  machine.begin(decode_record(*record), plan);
   spdlog::info("{} goes on with {}", machine.profile().name, name);
+}
+
+std::optional<store::RunRecord> MachineRuns::open_run(const std::string& name) {
+  auto record = archive_.find_run(name);
+  if (record && record->state != store::RunRecordState::kOpen) record.reset();
+  return record;
 }
 
 void MachineRuns::note(const runs::Machine& machine, std::optional<runs::Run>& seen) {

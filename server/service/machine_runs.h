@@ -41,6 +41,8 @@ class MachineRuns {
  private:
   // The machine that is on the run, if the caller may control it.
   Machines::MachinePointer require_control(const Caller& caller, const std::string& run, bool take_over);
+  // As it is kept; nothing if it is over, or not kept.
+  std::optional<store::RunRecord> open_run(const std::string& run);
   // A run that its machine, which is attached, is not on.
   runs::Run close(store::RunRecord record, store::RunRecordState state);
   runs::Run noted(const runs::Run& run);

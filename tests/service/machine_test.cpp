@@ -4,10 +4,12 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/service/server.h"
 #include "server/store/store.h"
 #include "tests/files/temporary_folder.h"
+#include "tests/service/kept_plans.h"
 #include "tests/service/test_gateway.h"
 #include "tests/service/test_server.h"
 
@@ -331,6 +333,56 @@ TEST_F(MachineRunsTest, AreRefusedWithTheReason) {
   EXPECT_EQ(resume().status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_TRUE(refuses_field(override_feed(201).status, "feed_override_percent"));
   EXPECT_TRUE(refuses_field(override_feed(-1).status, "feed_override_percent"));
+}
+
+// Each of them finds the machine ready; writing the run to a disk takes a while.
+TEST_F(MachineRunsTest, ThatAreAskedForAtTheSameMomentAreNotBegunTwice) {
+  const kcs::test::TemporaryFolder folder;
+  start({.store = {.database = "sqlite:" + (folder.path() / "plans.db").string()}});
+  const std::string plan = make_plan();
+  TestGateway gateway(machine_, server_->channel());
+  begin(plan);
+  for (int round = 0; round < 10; ++round) {
+    ASSERT_TRUE(abort().status.ok());
+    constexpr int kOperators = 8;
+    std::vector<Answer<v1::Run>> answers(kOperators);
+    {
+      std::vector<std::jthread> operators;
+      for (Answer<v1::Run>& answer : answers) operators.emplace_back([&] { answer = run(plan); });
+    }
+    int begun = 0;
+    for (const Answer<v1::Run>& answer : answers) {
+      if (answer.status.ok()) {
+        ++begun;
+        run_ = answer.message.name();
+      } else {
+        EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::FAILED_PRECONDITION) << answer.status.error_message();
+      }
+    }
+    ASSERT_EQ(begun, 1);
+  }
+}
+
+TEST_F(MachineRunsTest, AreAbortedWhileTheirMachineTakesThemUp) {
+  const kcs::test::TemporaryFolder folder;
+  const ServerOptions options{.store = {.database = "sqlite:" + (folder.path() / "plans.db").string()}};
+  start(options);
+  const std::string plan = make_plan(long_path());
+  {
+    TestGateway gateway(machine_, server_->channel());
+    begin(plan);
+    for (int i = 0; i < 10; ++i) ASSERT_TRUE(gateway.play());
+    server_.reset();
+    while (gateway.play()) {
+    }
+  }
+  start(options);
+  TestGateway gateway(machine_, server_->channel());  // the plan is made again for it
+  Answer<v1::Run> aborted;
+  ASSERT_TRUE(eventually([&] { return (aborted = abort()).status.error_code() != grpc::StatusCode::NOT_FOUND; }));
+  EXPECT_EQ(aborted.message.state(), v1::RUN_STATE_ABORTED) << aborted.status.error_message();
+  EXPECT_TRUE(gateway.is_told_to_stop());
+  EXPECT_EQ(get().message.state(), v1::RUN_STATE_ABORTED);
 }
 
 TEST_F(MachineRunsTest, AreAllThatAStoppingServerWaitsForOfAMachine) {

@@ -55,16 +55,26 @@ void TestGateway::deafen() {
   deaf_ = true;
 }
 
+bool TestGateway::is_told_to_stop() {
+  std::unique_lock lock(mutex_);
+  report_until(stop_asked_, lock);
+  return stop_asked_;
+}
+
 grpc::Status TestGateway::finish() {
   std::unique_lock lock(mutex_);
-  for (auto end = std::chrono::steady_clock::now() + kcs::test::kDeadline;
-       !closed_ && std::chrono::steady_clock::now() < end;) {
-    send_report();
-    came_.wait_for(lock, kReport, [this] { return closed_; });
-  }
+  report_until(closed_, lock);
   lock.unlock();
   finished_ = closed_;
   return closed_ ? stream_->Finish() : grpc::Status(grpc::StatusCode::DEADLINE_EXCEEDED, "it goes on");
+}
+
+void TestGateway::report_until(const bool& done, std::unique_lock<std::mutex>& lock) {
+  for (auto end = std::chrono::steady_clock::now() + kcs::test::kDeadline;
+       !done && !closed_ && std::chrono::steady_clock::now() < end;) {
+    send_report();
+    came_.wait_for(lock, kReport, [&] { return done || closed_; });
+  }
 }
 
 void TestGateway::read() {

@@ -46,6 +46,8 @@ class TestGateway {
   bool play();
   // From now on the server's commands are lost.
   void deafen();
+  // Reports what it stands at until a command comes. False if none does.
+  bool is_told_to_stop();
   // The end of the connection, as the server gives it.
   grpc::Status finish();
 
@@ -53,6 +55,7 @@ class TestGateway {
   void read();
   void take(const v1::AttachMachineResponse& response);
   void send_report();
+  void report_until(const bool& done, std::unique_lock<std::mutex>& lock);
   void play(const google::protobuf::RepeatedPtrField<v1::Column>& columns);
   void stop();
   void update_position();
