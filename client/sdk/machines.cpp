@@ -3,6 +3,7 @@
 #include <grpcpp/channel.h>
 
 #include <chrono>
+#include <type_traits>
 #include <utility>
 
 #include "client/sdk/call_context.h"
@@ -27,12 +28,12 @@ class Machines::Link {
   explicit Link(ServerLink server)
       : server_(std::move(server)), stub_(v1::MachineService::NewStub(server_.channel())) {}
 
-  // Asks what the server answers at once.
+  // Asks what the server answers at once; but for a run, whose plan may have to be made again first.
   template <typename Request, typename Response>
   Response ask(grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), const Request& request) {
     server_.await_server({});
     grpc::ClientContext context;
-    server_.set_deadline(context);
+    if constexpr (!std::is_same_v<Request, v1::RunPlanRequest>) server_.set_deadline(context);
     if constexpr (requires { request.machine(); }) {
       say_machine(context, request.machine());
     } else if constexpr (requires { request.name(); }) {

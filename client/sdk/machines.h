@@ -40,7 +40,8 @@ class Machines {
   std::vector<AttachedMachine> list();
 
   // Begins a run; the caller becomes its controller. The plan must start at rest where the machine stands, and its
-  // limits must be inside the machine's. The override, 0 to 200 %, is 100 % unless it is given.
+  // limits must be inside the machine's. The override, 0 to 200 %, is 100 % unless it is given. Takes as long as
+  // planning if the server has to make the plan again.
   Run run_plan(const std::string& machine, const std::string& plan, std::optional<double> feed_override_percent = {});
 
   Run get(const std::string& run);

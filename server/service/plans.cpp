@@ -161,9 +161,9 @@ jobs::PlanPointer Plans::load(const Caller& caller, const std::string& name) {
         await(caller, *under_way);
         return under_way->plan();
       }
-      if (const auto ticket = plan_again(caller, name)) {
-        await(caller, *ticket);
-        return ticket->plan();
+      if (const auto begun = plan_again(caller, name)) {
+        await(caller, *begun);
+        return begun->plan();
       }
     } catch (const jobs::Withdrawn&) {
       find(caller, name);  // those who had it made have gone, unless it was deleted
@@ -171,14 +171,16 @@ jobs::PlanPointer Plans::load(const Caller& caller, const std::string& name) {
   }
 }
 
-std::optional<jobs::Ticket> Plans::plan_again(const Caller& caller, const std::string& name) {
+std::optional<jobs::PlanWatch> Plans::plan_again(const Caller& caller, const std::string& name) {
   const std::lock_guard lock(planning_again_);
   if (desk_.watch(name) || archive_.find(name)) return std::nullopt;
   const std::optional<std::string> bytes = archive_.request(name);
   if (!bytes) throw NotKept();
   jobs::PlanRequest request = decode_request(name, *bytes, caps_);
   request.call = caller.request_id;
-  return desk_.submit(std::move(request), caller.client, jobs::Priority::kNormal);
+  jobs::Ticket ticket = desk_.submit(std::move(request), caller.client, jobs::Priority::kNormal);
+  ticket.go_on_alone();  // who gives up and asks again finds that much of it done, however short his patience
+  return ticket;
 }
 
 store::Record Plans::find(const Caller& caller, const std::string& name) {

@@ -49,7 +49,7 @@ class Plans {
   v1::PlanState state_of(const std::string& name);
   void send_progress(const Caller& caller, const jobs::PlanWatch& watch, const SendProgress& send) const;
   // Nothing if somebody else has had it planned since the caller looked for it.
-  std::optional<jobs::Ticket> plan_again(const Caller& caller, const std::string& name);
+  std::optional<jobs::PlanWatch> plan_again(const Caller& caller, const std::string& name);
 
   jobs::PlanDesk& desk_;
   Archive& archive_;

@@ -1,9 +1,11 @@
 // What is too much for a server is refused with the name of the cap, before it does harm.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
 #include <thread>
 
+#include "tests/service/kept_plans.h"
 #include "tests/service/test_server.h"
 
 namespace kcs::service::test {
@@ -82,6 +84,23 @@ TEST(Caps, WhatMemoryHasNoRoomForIsPlannedAgain) {
   ASSERT_TRUE(after.status.ok()) << after.status.error_message();
   ASSERT_EQ(after.message.size(), before.size());
   EXPECT_EQ(bytes(after.message), bytes(before));
+}
+
+// However short a client's patience: each time he asks, more of it is done.
+TEST(Caps, WhatIsPlannedAgainIsGoneOnWithWhenItsClientGivesUp) {
+  TestServer server({.planning_threads = 1, .caps = {.cached_plans = 1}});
+  const std::string name = server.create({request(options()), request(long_path())}).message.name();
+  ASSERT_TRUE(server.create({request(options()), request(zigzag(3))}).status.ok());
+  EXPECT_TRUE(eventually([&] {
+    grpc::ClientContext call;
+    call.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(100));
+    const auto reader = server.stub().StreamSetpoints(&call, setpoints(name, 1));
+    v1::SetpointBatch batch;
+    const bool is_there = reader->Read(&batch);
+    call.TryCancel();
+    reader->Finish();
+    return is_there;
+  }));
 }
 
 TEST(Caps, PlanThatIsLargerThanTheCache) {

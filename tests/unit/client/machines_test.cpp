@@ -36,6 +36,7 @@ class MachinesTest : public testing::Test {
     options.store.database = "memory";
     options.listen = "127.0.0.1:0";
     options.planning_threads = 1;
+    options.caps.cached_plans = 1;
     return options;
   }
 
@@ -51,13 +52,18 @@ class MachinesTest : public testing::Test {
   }
 
   // A plan of this many mm, made for the machine as it is attached.
-  std::string plan(double length = 100) {
+  std::string plan(double length = 100) { return plan_points({0, 0, length, 0, length, 50}); }
+  std::string plan_points(const std::vector<double>& points) {
     PlanOptions options;
     options.machine = attached().limits;
     options.feed_mm_s = 100;
-    return Planner(server_.address()).plan_points({.points_mm = {0, 0, length, 0, length, 50}}, options).name;
+    return Planner(server_.address()).plan_points({.points_mm = points}, options).name;
   }
 
+  // Stands still, and says so until the test ends.
+  void rest() {
+    player_ = std::jthread([this] { gateway_.finish(); });
+  }
   // Plays on, resumes included, until the test ends.
   void play_on() {
     player_ = std::jthread([this](const std::stop_token& stop) {
@@ -118,6 +124,17 @@ TEST_F(MachinesTest, RunAPlanThatIsWatchedToItsEnd) {
   EXPECT_EQ(last.plan_time_s, last.cycle_time_s);
   EXPECT_EQ(last.position_mm, (std::vector<double>{100, 50}));
   EXPECT_GE(changes, 2);
+}
+
+TEST_F(MachinesTest, RunAPlanThatTakesLongToBeMadeAgain) {
+  rest();
+  std::vector<double> zigzag;
+  for (int i = 0; i < 40'000; ++i) zigzag.insert(zigzag.end(), {0.1 * i, static_cast<double>(i % 2)});
+  const std::string name = plan_points(zigzag);
+  plan();  // takes its place in memory
+  Machines impatient(Connection{.address = server_.address(), .patience = std::chrono::milliseconds(200)});
+  ASSERT_TRUE(eventually([&] { return code_of([&] { impatient.list(); }) == "no error"; }));
+  EXPECT_EQ(impatient.run_plan("machines/mill", name).plan, name);
 }
 
 TEST_F(MachinesTest, HoldResumeChangeThePaceAndAbort) {
