@@ -168,10 +168,16 @@ void Machine::require_ready_for(const jobs::KeptPlan& plan) const {
 
 void Machine::begin(Run run, PlanPointer plan) {
   const std::lock_guard lock(mutex_);
-  run.cycle_time = plan->plan.summary.cycle_time;
-  run_ = std::move(run);
-  plan_ = std::move(plan);
+  set_run(std::move(run), std::move(plan));
   start_feed();
+  changed_.notify_all();
+}
+
+void Machine::take_up(Run run, PlanPointer plan) {
+  const std::lock_guard lock(mutex_);
+  set_run(std::move(run), std::move(plan));
+  started_ = true;
+  go_on();
   changed_.notify_all();
 }
 
@@ -179,8 +185,7 @@ void Machine::attach(const MachineReport& first) {
   const std::lock_guard lock(mutex_);
   report_ = first;
   if (run_ && !is_over(run_->state)) {
-    // A run that it was on and knows no more is nowhere to go on with, and must not begin once more.
-    started_&& first.run != run_->name ? follow(first) : start_feed();
+    go_on();
   } else if (run_ && first.run == run_->name) {
     orders_.emplace_back(StopOrder{.abort = true});  // it does not know yet that the run is over
   }
@@ -192,6 +197,18 @@ void Machine::drop_run() {
   if (run_ && !is_over(run_->state)) return;  // begun since it attached: the order to drop would hit that one
   orders_.emplace_back(StopOrder{.abort = true});
   changed_.notify_all();
+}
+
+void Machine::set_run(Run run, PlanPointer plan) {
+  run.cycle_time = plan->plan.summary.cycle_time;
+  run_ = std::move(run);
+  plan_ = std::move(plan);
+}
+
+// A run that the machine was on and knows no more is nowhere to go on with, and must not begin once more.
+void Machine::go_on() {
+  const bool forgotten = started_ && report_.run != run_->name;
+  forgotten ? follow(report_) : start_feed();
 }
 
 void Machine::start_feed() {

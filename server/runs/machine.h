@@ -80,8 +80,9 @@ class Machine {
   std::unique_lock<std::mutex> take_turn() { return std::unique_lock(turn_); }
   // Whether a run of this plan could begin: throws NotNow.
   void require_ready_for(const jobs::KeptPlan& plan) const;
-  // Begins it, or goes on with it where the machine is, if it has said that it is on it.
   void begin(Run run, PlanPointer plan);
+  // Goes on with one that the machine has said that it is on, where it is.
+  void take_up(Run run, PlanPointer plan);
   // The machine attached with a run that is over, or that nobody knows: it is to forget it. Nothing if another one has
   // begun since.
   void drop_run();
@@ -102,6 +103,8 @@ class Machine {
  private:
   Run& require_open(const std::string& run);
   Run changed();
+  void set_run(Run run, PlanPointer plan);
+  void go_on();
   void start_feed();
   void note_speed(const MachineReport& report);
   void follow(const MachineReport& report);

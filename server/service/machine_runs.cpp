@@ -56,7 +56,9 @@ runs::Run MachineRuns::abort(const std::string& name) {
   const auto record = archive_.find_run(name);
   if (!record) throw NoSuchRun(name);
   if (record->state != store::RunRecordState::kOpen) throw runs::NotNow(name + " is over");
-  return close(*record, store::RunRecordState::kAborted);
+  const runs::Run aborted = close(*record, store::RunRecordState::kAborted);
+  if (machine->last_report().run == name) machine->drop_run();  // and need not wait for its plan any more
+  return aborted;
 }
 
 runs::Run MachineRuns::close(store::RunRecord record, store::RunRecordState state) {
@@ -99,10 +101,11 @@ void MachineRuns::take_up(const Caller& caller, runs::Machine& machine, const st
   of_run.identity = {.owner = name, .roles = {}};  // to which the plan belongs as well
   const jobs::PlanPointer plan = plans_.load(of_run, known->plan);
   const auto turn = machine.take_turn();
+  if (machine.is_on(name)) return;     // its gateway attached once more, and was quicker
   const auto record = open_run(name);  // which may have been aborted meanwhile
   if (!record) return machine.drop_run();
-  machine.begin(decode_record(*record), plan);
-  spdlog::info("{} goes on with {}", machine.profile().name, name);
+  machine.take_up(decode_record(*record), plan);
+  if (machine.has_open_run()) spdlog::info("{} goes on with {}", machine.profile().name, name);
 }
 
 std::optional<store::RunRecord> MachineRuns::open_run(const std::string& name) {

@@ -33,7 +33,7 @@ class MachineRuns {
   void watch(const Caller& caller, const std::string& run, const std::function<void(const runs::Run&)>& send);
 
   // A machine that has just been attached says that it is on a run: gives it the rest, or tells it that the run is
-  // over.
+  // over. May take as long as planning; the caller is asked all the while whether it is still wanted.
   void take_up(const Caller& caller, runs::Machine& machine, const std::string& run);
   // Takes note of how a machine's run goes, for the store. seen: as it was noted last.
   void note(const runs::Machine& machine, std::optional<runs::Run>& seen);

@@ -18,7 +18,7 @@ using AttachStream = grpc::ServerReaderWriter<v1::AttachMachineResponse, v1::Att
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kOrderLook{20}, kLook{2};
+constexpr std::chrono::milliseconds kOrderLook{20}, kLook{2}, kNoPatience{0};
 // Gateways without a run report five times a second.
 constexpr std::chrono::milliseconds kNextReport{500};
 // A call that says nothing for longer is broken, whatever its connection looks like: a machine without one has stopped
@@ -70,6 +70,11 @@ class Reports {
   std::jthread thread_;  // last: it uses all the others
 };
 
+// Thrown where an attached machine's call is to end.
+struct Ended {
+  grpc::Status status = {};
+};
+
 v1::AttachMachineRequest read_message(AttachStream& stream, const char* what) {
   v1::AttachMachineRequest message;
   if (!stream.Read(&message)) refuse(what, "is missing: send the hello first, then reports");
@@ -105,22 +110,33 @@ grpc::Status MachineService::AttachMachine(grpc::ServerContext* context, AttachS
     runs::Machine& machine = attachment.machine();
     const auto known = machine.run();
     const bool is_new = !first.run.empty() && (!known || known->name != first.run);
-    if (is_new) runs_.take_up(caller, machine, first.run);
     Reports reports(*stream, *context, runs_, machine);
-    for (auto said = Clock::now(); !reports.over() && !attachment.superseded();) {
+    auto said = Clock::now();
+    // Hands on an order, or gives a sign of life when one is due. Throws what ends the call.
+    const auto attend = [&](std::chrono::milliseconds patience) {
       caller.require_wanted();
-      if (calls_.closed() && !machine.has_open_run()) throw Stopping();  // it can attach elsewhere at once
+      if (reports.over() || attachment.superseded()) throw Ended();
       if (reports.silent_for() > kLongestSilence) {
-        return {grpc::StatusCode::UNAVAILABLE, "no report has come for three seconds; attach anew"};
+        throw Ended{{grpc::StatusCode::UNAVAILABLE, "no report has come for three seconds; attach anew"}};
       }
-      const auto order = machine.next_order(kOrderLook);
-      if (!order && Clock::now() - said < kSignOfLife) continue;
-      if (!stream->Write(order ? encode_order(*order, axes) : v1::AttachMachineResponse())) break;
+      const auto order = machine.next_order(patience);
+      if (!order && Clock::now() - said < kSignOfLife) return;
+      if (!stream->Write(order ? encode_order(*order, axes) : v1::AttachMachineResponse())) throw Ended();
       said = Clock::now();
+    };
+    Caller attending = caller;
+    attending.require_wanted = [&attend] { attend(kNoPatience); };
+    try {
+      if (is_new) runs_.take_up(attending, machine, first.run);
+      while (true) {
+        if (calls_.closed() && !machine.has_open_run()) throw Stopping();  // it can attach elsewhere at once
+        attend(kOrderLook);
+      }
+    } catch (const Ended& end) {
+      if (attachment.superseded()) context->TryCancel();  // nobody listens any more
+      reports.rethrow();
+      return end.status;
     }
-    if (attachment.superseded()) context->TryCancel();  // nobody listens any more
-    reports.rethrow();
-    return grpc::Status::OK;
   });
 }
 

@@ -385,6 +385,43 @@ TEST_F(MachineRunsTest, AreAbortedWhileTheirMachineTakesThemUp) {
   EXPECT_EQ(get().message.state(), v1::RUN_STATE_ABORTED);
 }
 
+// A machine comes with a run whose plan takes long to be made again.
+class MachineThatWaitsForItsPlan : public MachineRunsTest {
+ protected:
+  void SetUp() override {
+    const ServerOptions options{.planning_threads = 1,
+                                .store = {.database = "sqlite:" + (folder_.path() / "plans.db").string()}};
+    start(options);
+    const auto plan = server_->create(join(accept_only(blended()), endless_path()));
+    ASSERT_TRUE(plan.status.ok()) << plan.status.error_message();
+    plan_ = plan.message.name();
+    server_.reset();
+    store::Store(options.store).add_run({.machine = "machines/mill", .plan = plan_, .controller = ""});
+    machine_.report.mutable_run()->set_run(run_);
+    machine_.report.set_state(v1::MACHINE_STATE_HELD);
+    start(options);
+  }
+
+  void TearDown() override { EXPECT_NE(server_->get(plan_).message.state(), v1::PLAN_STATE_READY) << "too late"; }
+
+  const kcs::test::TemporaryFolder folder_;
+  std::string plan_;
+};
+
+TEST_F(MachineThatWaitsForItsPlan, IsToldAtOnceToDropARunThatIsAborted) {
+  TestGateway gateway(machine_, server_->channel());
+  Answer<v1::Run> aborted;
+  ASSERT_TRUE(eventually([&] { return (aborted = abort()).status.error_code() != grpc::StatusCode::NOT_FOUND; }));
+  EXPECT_EQ(aborted.message.state(), v1::RUN_STATE_ABORTED) << aborted.status.error_message();
+  EXPECT_TRUE(gateway.is_told_to_stop());
+}
+
+TEST_F(MachineThatWaitsForItsPlan, GetsSignsOfLifeAndOwesThem) {
+  TestGateway gateway(machine_, server_->channel());
+  EXPECT_GE(gateway.signs_of_life(), 1);
+  EXPECT_EQ(gateway.finish().error_code(), grpc::StatusCode::CANCELLED) << "as it was silent";
+}
+
 TEST_F(MachineRunsTest, AreAllThatAStoppingServerWaitsForOfAMachine) {
   TestGateway gateway(machine_, server_->channel());
   EXPECT_TRUE(

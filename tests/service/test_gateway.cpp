@@ -61,6 +61,12 @@ bool TestGateway::is_told_to_stop() {
   return stop_asked_;
 }
 
+int TestGateway::signs_of_life() {
+  std::unique_lock lock(mutex_);
+  came_.wait_for(lock, kcs::test::kDeadline, [this] { return closed_; });
+  return signs_of_life_;
+}
+
 grpc::Status TestGateway::finish() {
   std::unique_lock lock(mutex_);
   report_until(closed_, lock);
@@ -105,6 +111,8 @@ void TestGateway::take(const v1::AttachMachineResponse& response) {
     machine_.held.push_back(batch);
   } else if (response.has_command()) {
     stop_asked_ = !deaf_;
+  } else if (response.content_case() == v1::AttachMachineResponse::CONTENT_NOT_SET) {
+    ++signs_of_life_;
   }
 }
 

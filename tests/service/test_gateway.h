@@ -48,6 +48,8 @@ class TestGateway {
   void deafen();
   // Reports what it stands at until a command comes. False if none does.
   bool is_told_to_stop();
+  // Says no more. How often the server gave a sign of life before it ended the call.
+  int signs_of_life();
   // The end of the connection, as the server gives it.
   grpc::Status finish();
 
@@ -66,6 +68,7 @@ class TestGateway {
   std::unique_ptr<grpc::ClientReaderWriter<v1::AttachMachineRequest, v1::AttachMachineResponse>> stream_;
   std::mutex mutex_;
   std::condition_variable came_;
+  int signs_of_life_ = 0;
   bool stop_asked_ = false, deaf_ = false, closed_ = false, finished_ = false;
   std::thread reader_;
 };

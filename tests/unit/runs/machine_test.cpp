@@ -123,6 +123,14 @@ TEST_F(MachineTest, HasAbortedARunThatItsGatewayHasForgottenSince) {
   EXPECT_TRUE(orders_for(machine_).empty());
 }
 
+// Its plan may have taken long to be made again.
+TEST_F(MachineTest, TakesUpNoRunThatItsGatewayHasForgottenMeanwhile) {
+  machine_.report({.state = MachineState::kReady});
+  machine_.take_up({.name = "machines/mill/runs/1", .plan = "plans/x"}, make_plan());
+  EXPECT_EQ(machine_.run()->state, RunState::kFailed);
+  EXPECT_TRUE(orders_for(machine_).empty());
+}
+
 // It rests by itself, or has not begun yet, before the order to drop the run is on its way: the run would be kept.
 TEST_F(MachineTest, IsToldToDropARunThatIsAbortedWhileItComesToRest) {
   for (const MachineState rests : {MachineState::kHeld, MachineState::kReady}) {
