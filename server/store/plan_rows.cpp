@@ -86,18 +86,19 @@ void touch_plan(soci::session& session, const Dialect& dialect, const std::strin
 }
 
 void settle_plan(soci::session& session, const Dialect& dialect, const std::string& name, State state,
-                 std::string_view outcome, std::optional<double> cycle_time) {
+                 std::string_view outcome, std::optional<double> cycle_time, Refusal refusal) {
   const int new_state = static_cast<int>(state);
   const double seconds = cycle_time.value_or(0);
   soci::indicator has_seconds = cycle_time ? soci::i_ok : soci::i_null;
   const auto outcome_bytes = static_cast<long long>(outcome.size());
+  const int replaced = static_cast<int>(refusal == Refusal::kIsReplaced ? State::kRefused : State::kAccepted);
   const std::string bytes = dialect.encode(std::string(outcome));
   session << fmt::format(
       "update plans set state = :state, cycle_time = :cycle_time, outcome = {}, use_time = {}, "
-      "stored_bytes = stored_bytes + :outcome_bytes where name = :name and state = 0",
+      "stored_bytes = stored_bytes + :outcome_bytes - length(outcome) where name = :name and state in (0, :replaced)",
       dialect.bytes_of_parameter(":outcome"), dialect.now()),
       soci::use(new_state, "state"), soci::use(seconds, has_seconds, "cycle_time"), soci::use(bytes, "outcome"),
-      soci::use(outcome_bytes, "outcome_bytes"), soci::use(name, "name");
+      soci::use(outcome_bytes, "outcome_bytes"), soci::use(name, "name"), soci::use(replaced, "replaced");
 }
 
 Removal delete_owner(soci::session& session, const Whose& whose, const std::string& name) {

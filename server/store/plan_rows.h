@@ -48,9 +48,10 @@ void insert_owner(soci::session& session, const Dialect& dialect, const std::str
 // The plan is used now.
 void touch_plan(soci::session& session, const Dialect& dialect, const std::string& name);
 
-// Writes the outcome if the plan has none.
+// An outcome that is there already stays, but for a refusal that is to be replaced.
+enum class Refusal { kStays, kIsReplaced };
 void settle_plan(soci::session& session, const Dialect& dialect, const std::string& name, State state,
-                 std::string_view outcome, std::optional<double> cycle_time);
+                 std::string_view outcome, std::optional<double> cycle_time, Refusal refusal = Refusal::kStays);
 
 // Of everybody's: all owners but runs.
 Removal delete_owner(soci::session& session, const Whose& whose, const std::string& name);

@@ -41,7 +41,8 @@ Record Store::Parts::keep(const std::string& owner, const Request& request, cons
     insert_plan(session, dialect, request, packed);
     insert_owner(session, dialect, owner, request.name);
     if (finished) {
-      settle_plan(session, dialect, request.name, State::kFinished, finished->plan, finished->cycle_time);
+      settle_plan(session, dialect, request.name, State::kFinished, finished->plan, finished->cycle_time,
+                  Refusal::kIsReplaced);
     } else {
       leases.take(session, dialect, request.name);
     }

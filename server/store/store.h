@@ -36,7 +36,7 @@ class Store {
   // Keeps a request that is to be planned, and takes it to be planned here unless another server has it. Doing it again
   // changes nothing.
   Record accept(const std::string& owner, const Request& request);
-  // Keeps a request together with its plan.
+  // Keeps a request together with its plan, also one that was refused before: with other caps, say.
   Record accept_finished(const std::string& owner, const Request& request, const Finished& finished);
 
   // Keeps the outcome of an accepted request: `status` says why it was refused. The first outcome stays; what is not

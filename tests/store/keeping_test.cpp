@@ -153,6 +153,23 @@ TEST_P(Keeping, AFinishedPlanSettlesARequestThatWaits) {
   EXPECT_TRUE(store.claim(10).empty());
 }
 
+TEST_P(Keeping, AFinishedPlanReplacesARefusal) {
+  Store store(settings_);
+  const auto stored_bytes = [this] { return query(settings_, "select stored_bytes from plans"); };
+  accept_finished(store, "ada", 1);
+  const std::string expected = stored_bytes();
+  store.remove("ada", plan_name(1));
+
+  accept(store, "ada", 1);
+  store.refuse(plan_name(1), kZeros);
+  const Record finished = accept_finished(store, "bob", 1, 2);
+  EXPECT_EQ(finished.state, State::kFinished);
+  EXPECT_EQ(finished.outcome, "plan");
+  EXPECT_EQ(store.find("ada", plan_name(1))->state, State::kFinished);
+  EXPECT_EQ(store.list("ada", {.cycle_time_at_least = 2}, 10, "").records.size(), 1);
+  EXPECT_EQ(stored_bytes(), expected);
+}
+
 TEST_P(Keeping, NamesThatNobodyGaveAreNotFound) {
   Store store(settings_);
   accept_finished(store, "ada", 1);
