@@ -41,23 +41,28 @@ std::optional<PlanWatch> PlanDesk::watch(const std::string& name) {
   return PlanWatch(*this, found->second.work, found->second.job);
 }
 
-bool PlanDesk::cancel(const std::string& name) {
-  UnderWay cancelled;
+bool PlanDesk::abandon(const std::string& name) {
+  UnderWay dropped;
   {
     std::unique_lock lock(mutex_);
     const auto found = under_way_.find(name);
     if (found == under_way_.end()) return false;
-    if (found->second.ending) {
-      const std::shared_ptr<PlanWork> work = found->second.work;
+    UnderWay& it = found->second;
+    if (it.ending) {
+      const std::shared_ptr<PlanWork> work = it.work;
       ended_.wait(lock, [&] { return find(*work) == nullptr; });
       return false;
     }
-    cancelled = std::move(found->second);
-    under_way_.erase(found);
+    for (const Client& client : std::exchange(it.alone, {})) dropped = take_ticket(it, client);
   }
-  scheduler_.cancel(cancelled.job);
-  cancelled.work->fail(std::make_exception_ptr(Withdrawn()));
-  return true;
+  if (dropped.work) dropped.work->fail(std::make_exception_ptr(Withdrawn()));
+  return dropped.work != nullptr;
+}
+
+void PlanDesk::let_go_on_alone(const PlanWork& work, const Client& client) {
+  const std::lock_guard lock(mutex_);
+  UnderWay* it = find(work);
+  if (it != nullptr && it->alone.insert(client).second) ++it->tickets[client];
 }
 
 // A ticket goes.
@@ -67,15 +72,21 @@ void PlanDesk::drop(const PlanWork& work, const Client& client) {
     const std::lock_guard lock(mutex_);
     UnderWay* it = find(work);
     if (it == nullptr || it->ending) return;
-    const auto tickets = it->tickets.find(client);
-    if (--tickets->second > 0) return;
-    it->tickets.erase(tickets);
-    scheduler_.leave(it->job, client);
-    if (!it->tickets.empty()) return;
-    dropped = std::move(*it);
-    under_way_.erase(work.request().name);
+    dropped = take_ticket(*it, client);
   }
-  dropped.work->fail(std::make_exception_ptr(Withdrawn()));
+  if (dropped.work) dropped.work->fail(std::make_exception_ptr(Withdrawn()));
+}
+
+// Returns what is under way no more if it was the last ticket, which had better die after the lock is gone.
+PlanDesk::UnderWay PlanDesk::take_ticket(UnderWay& it, const Client& client) {
+  const auto tickets = it.tickets.find(client);
+  if (--tickets->second > 0) return {};
+  it.tickets.erase(tickets);
+  scheduler_.leave(it.job, client);
+  if (!it.tickets.empty()) return {};
+  UnderWay last = std::move(it);
+  under_way_.erase(last.work->request().name);
+  return last;
 }
 
 // On a planning thread.

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <unordered_map>
@@ -50,9 +51,10 @@ class PlanDesk {
   // Looks on at a planning under way; nothing if there is none of that name.
   std::optional<PlanWatch> watch(const std::string& name);
 
-  // Stops a planning under way, whoever waits for it. Once this returns, nothing is going to be kept of it. False if
-  // there is none, or it came to its end: then the keeper has the plan, unless it failed.
-  bool cancel(const std::string& name);
+  // Nobody asks any more for what goes on alone: it is stopped unless somebody holds a ticket for it. True if it was
+  // stopped: then nothing is going to be kept of it. False, too, if it came to its end: then the keeper has the plan,
+  // unless it failed.
+  bool abandon(const std::string& name);
 
   Scheduler::Load load() const { return scheduler_.load(); }
 
@@ -64,11 +66,14 @@ class PlanDesk {
     std::shared_ptr<PlanWork> work;
     JobId job = 0;
     std::map<Client, std::size_t> tickets;
-    bool ending = false;  // it is made, or has failed, and the keeper is told
+    std::set<Client> alone;  // who has one more, which goes when it is abandoned
+    bool ending = false;     // it is made, or has failed, and the keeper is told
   };
 
   std::size_t ahead(JobId job) const { return scheduler_.ahead(job); }
+  void let_go_on_alone(const PlanWork& work, const Client& client);
   void drop(const PlanWork& work, const Client& client);
+  UnderWay take_ticket(UnderWay& it, const Client& client);
   bool go_on(PlanWork& work, const std::stop_token& stop);
   bool begin_to_end(const PlanWork& work);
   std::exception_ptr tell_keeper(const PlanWork& work, const std::exception_ptr& failure);

@@ -83,13 +83,6 @@ void Scheduler::leave(JobId id, const Client& client) {
   if (!queue_.leave(id, client)) job = forget(id);
 }
 
-void Scheduler::cancel(JobId id) {
-  std::shared_ptr<Job> job;
-  const std::lock_guard lock(mutex_);
-  queue_.remove(id);
-  job = forget(id);
-}
-
 std::shared_ptr<Scheduler::Job> Scheduler::forget(JobId id) {
   const auto found = jobs_.find(id);
   if (found == jobs_.end()) return nullptr;

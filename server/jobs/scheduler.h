@@ -46,10 +46,9 @@ class Scheduler {
   // Has a job that is not done yet done for one more client, or with a higher priority for the same one. Throws
   // CapExceeded if too many of that client wait.
   void join(JobId job, const Client& client, Priority priority);
-  // The client does not want it any more; the job is cancelled if nobody does.
+  // The client does not want it any more. If nobody does, a job that waits is dropped at once, together with its step;
+  // one that runs is asked to stop.
   void leave(JobId job, const Client& client);
-  // A job that waits is dropped at once, together with its step; one that runs is asked to stop.
-  void cancel(JobId job);
 
   // How many jobs have their first turn before the next one of this job, more or less; 0 if it does not wait.
   std::size_t ahead(JobId job) const;

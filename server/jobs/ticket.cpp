@@ -50,7 +50,9 @@ Ticket::Ticket(PlanDesk& desk, std::shared_ptr<PlanWork> work, JobId job, Client
 
 // One that was moved from has no work.
 Ticket::~Ticket() {
-  if (work_ && !goes_on_alone_) desk_->drop(*work_, client_);
+  if (work_) desk_->drop(*work_, client_);
 }
+
+void Ticket::go_on_alone() { desk_->let_go_on_alone(*work_, client_); }
 
 }  // namespace kcs::jobs

@@ -44,12 +44,11 @@ class Ticket : public PlanWatch {
   Ticket(Ticket&& other) noexcept = default;
   Ticket& operator=(Ticket&&) = delete;
 
-  // The plan is made even if this goes: somebody asks for it later.
-  void go_on_alone() { goes_on_alone_ = true; }
+  // The plan is made even if this goes, unless it is abandoned: somebody asks for it later.
+  void go_on_alone();
 
  private:
   Client client_;
-  bool goes_on_alone_ = false;
 };
 
 }  // namespace kcs::jobs

@@ -147,7 +147,7 @@ void Plans::remove(const Caller& caller, const std::string& name) {
     case store::Removal::kOthersKeepIt:
       return;
     case store::Removal::kGone:
-      desk_.cancel(name);
+      desk_.abandon(name);
       archive_.forget(name);
   }
 }

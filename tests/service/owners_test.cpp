@@ -1,11 +1,14 @@
 // Whose plans are whose, and certificates that say who calls.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/certificates/authority.h"
 #include "tests/files/temporary_folder.h"
+#include "tests/service/kept_plans.h"
 #include "tests/service/secure_client.h"
 
 namespace kcs::service::test {
@@ -47,6 +50,19 @@ TEST_F(Owners, SamePlanOfTwoStaysWhenOneDeletesIt) {
   EXPECT_EQ(cam_.get(name).status.error_code(), NOT_FOUND);
   for (const grpc::Status& status : all_ways(shop_, name)) EXPECT_TRUE(status.ok()) << status.error_message();
   EXPECT_EQ(admin_.get(name).status.error_code(), NOT_FOUND) << "it is nobody's";
+}
+
+TEST_F(Owners, PlanThatOneWaitsForIsMadeThoughAnotherDeletesIt) {
+  const auto accepted = cam_.create({accept_only(options()), request(long_path())});
+  ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
+  std::thread deletes([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the other one waits by now
+    EXPECT_TRUE(cam_.remove(accepted.message.name()).ok());
+  });
+  const auto made = shop_.create({request(options()), request(long_path())});
+  deletes.join();
+  EXPECT_EQ(made.message.name(), accepted.message.name()) << made.status.error_message();
+  EXPECT_TRUE(shop_.get(made.message.name()).status.ok());
 }
 
 TEST_F(Owners, AdministratorSeesAndDeletesEverybodysPlans) {

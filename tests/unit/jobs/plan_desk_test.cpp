@@ -137,22 +137,46 @@ TEST(PlanDesk, GoesOnAloneIfItIsToldTo) {
   EXPECT_TRUE(eventually([&] { return office.plans.find("plans/a") != nullptr; }));
 }
 
-TEST(PlanDesk, CancelsByName) {
+TEST(PlanDesk, StopsWhatGoesOnAloneOnceItIsAbandoned) {
   Office office;
-  const Ticket ticket = office.desk.submit(endless("plans/a"), "anna", Priority::kNormal);
-  ASSERT_TRUE(is_planned(ticket));
-  EXPECT_TRUE(office.desk.cancel("plans/a"));
-  EXPECT_TRUE(ticket.wait(milliseconds(0)));
-  EXPECT_THROW(ticket.plan(), Withdrawn);
+  for (const char* client : {"anna", "ben", "anna"}) {
+    office.desk.submit(endless("plans/a"), client, Priority::kNormal).go_on_alone();
+  }
+  const auto watch = office.desk.watch("plans/a");
+  ASSERT_TRUE(watch && is_planned(*watch));
+  EXPECT_TRUE(office.desk.abandon("plans/a"));
+  EXPECT_TRUE(watch->wait(milliseconds(0)));
+  EXPECT_THROW(watch->plan(), Withdrawn);
   EXPECT_TRUE(is_idle(office.desk));
   EXPECT_EQ(office.plans.find("plans/a"), nullptr);
-  EXPECT_FALSE(office.desk.cancel("plans/a"));
+  EXPECT_FALSE(office.desk.abandon("plans/a"));
 }
 
-TEST(PlanDesk, PlansAgainWhatWasCancelled) {
+TEST(PlanDesk, GoesOnForThoseWhoWaitWhenItIsAbandoned) {
   Office office;
-  const Ticket cancelled = office.desk.submit(large("plans/a"), "anna", Priority::kNormal);
-  office.desk.cancel("plans/a");
+  office.desk.submit(large("plans/a"), "anna", Priority::kNormal).go_on_alone();
+  const Ticket his = office.desk.submit(large("plans/a"), "ben", Priority::kNormal);
+  ASSERT_TRUE(is_planned(his));
+  EXPECT_FALSE(office.desk.abandon("plans/a"));
+  const PlanPointer plan = plan_of(his);
+  EXPECT_EQ(plan, office.plans.find("plans/a"));
+}
+
+TEST(PlanDesk, StopsWhatIsAbandonedWhenTheLastOfThoseWhoWaitGoes) {
+  Office office;
+  std::optional<Ticket> hers = office.desk.submit(endless("plans/a"), "anna", Priority::kNormal);
+  hers->go_on_alone();
+  ASSERT_TRUE(is_planned(*hers));
+  EXPECT_FALSE(office.desk.abandon("plans/a"));
+  hers.reset();
+  EXPECT_TRUE(is_idle(office.desk));
+  EXPECT_FALSE(office.desk.watch("plans/a"));
+}
+
+TEST(PlanDesk, PlansAgainWhatWasAbandoned) {
+  Office office;
+  office.desk.submit(large("plans/a"), "anna", Priority::kNormal).go_on_alone();
+  EXPECT_TRUE(office.desk.abandon("plans/a"));
   EXPECT_NE(plan_of(office.desk.submit(large("plans/a"), "anna", Priority::kNormal)), nullptr);
 }
 
@@ -192,16 +216,16 @@ class SlowKeeper : public PlanKeeper {
   std::future<void> opened_ = opened.get_future();
 };
 
-TEST(PlanDesk, WhatIsBeingKeptCannotBeCancelledButIsKeptForSureAfterwards) {
+TEST(PlanDesk, WhatIsBeingKeptIsKeptForSureOnceItIsAbandoned) {
   SlowKeeper keeper;
   PlanDesk desk(keeper, kOneThread);
   std::optional<Ticket> ticket = desk.submit(right_angle("plans/a"), "anna", Priority::kNormal);
   keeper.keeping.get_future().wait();
-  auto cancelled = std::async(std::launch::async, [&] { return desk.cancel("plans/a"); });
-  EXPECT_EQ(cancelled.wait_for(milliseconds(50)), std::future_status::timeout);
+  auto abandoned = std::async(std::launch::async, [&] { return desk.abandon("plans/a"); });
+  EXPECT_EQ(abandoned.wait_for(milliseconds(50)), std::future_status::timeout);
   EXPECT_FALSE(ticket->progress().over());
   keeper.opened.set_value();
-  EXPECT_FALSE(cancelled.get());
+  EXPECT_FALSE(abandoned.get());
   EXPECT_NE(keeper.find("plans/a"), nullptr);
   EXPECT_NE(plan_of(*ticket), nullptr);
 }

@@ -106,7 +106,7 @@ TEST(Scheduler, AVeryLongJobAndAThousandOthersKeepNobodyElseWaiting) {
   EXPECT_LE(his.get_future().get(), 4);  // two turns
 }
 
-TEST(Scheduler, AJobThatWaitsIsGoneAtOnceWhenItIsCancelled) {
+TEST(Scheduler, AJobThatWaitsIsGoneAtOnceWhenItsClientLeaves) {
   Blocker blocker;
   Scheduler scheduler(kOneThread);
   scheduler.submit("anna", Priority::kNormal, blocker.step());
@@ -114,24 +114,24 @@ TEST(Scheduler, AJobThatWaitsIsGoneAtOnceWhenItIsCancelled) {
   auto held = std::make_shared<int>();
   const std::weak_ptr<int> watched = held;
   const JobId job = scheduler.submit("anna", Priority::kNormal, [held](const std::stop_token&) {
-    ADD_FAILURE() << "it was cancelled";
+    ADD_FAILURE() << "nobody wants it";
     return false;
   });
   held.reset();
   EXPECT_FALSE(watched.expired());
-  scheduler.cancel(job);
+  scheduler.leave(job, "anna");
   EXPECT_TRUE(watched.expired());
   EXPECT_EQ(scheduler.load().waiting, 0U);
   blocker.open();
 }
 
-TEST(Scheduler, AJobThatRunsIsAskedToStopWhenItIsCancelled) {
+TEST(Scheduler, AJobThatRunsIsAskedToStopWhenItsClientLeaves) {
   Blocker blocker;
   std::promise<void> next;
   Scheduler scheduler(kOneThread);
   const JobId job = scheduler.submit("anna", Priority::kNormal, blocker.step());
   blocker.wait_until_begun();
-  scheduler.cancel(job);
+  scheduler.leave(job, "anna");
   scheduler.submit("anna", Priority::kNormal, [&](const std::stop_token&) {
     next.set_value();
     return false;
