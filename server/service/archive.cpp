@@ -46,9 +46,7 @@ void Archive::keep(const jobs::PlanPointer& plan) {
   try {
     memory_.keep(plan);
   } catch (const jobs::CapExceeded&) {
-    // It would be as large the next time.
-    const std::string status = encode_refusal(end_by_current_exception().status);
-    timed("refuse", [&](store::Store& database) { database.refuse(plan->name, status); });
+    write_refusal(plan->name);  // it would be as large the next time
     throw;
   }
   finish(*plan);
@@ -65,14 +63,20 @@ void Archive::refuse(const jobs::RequestRecord& request, const std::exception_pt
   try {
     try {
       std::rethrow_exception(reason);
+    } catch (const jobs::CapExceeded& reached) {
+      if (!reached.retry_after()) write_refusal(request.name);  // likewise
     } catch (...) {
-      const grpc::Status status = end_by_current_exception().status;
-      if (!is_final(status)) return;
-      timed("refuse", [&](store::Store& database) { database.refuse(request.name, encode_refusal(status)); });
+      if (is_final(end_by_current_exception().status)) write_refusal(request.name);
     }
   } catch (const std::exception& failure) {
     spdlog::warn("cannot note that {} was refused; it is going to be planned again: {}", request.name, failure.what());
   }
+}
+
+// Inside a catch clause.
+void Archive::write_refusal(const std::string& name) {
+  const std::string status = encode_refusal(end_by_current_exception().status);
+  timed("refuse", [&](store::Store& database) { database.refuse(name, status); });
 }
 
 store::Record Archive::accept(const std::string& owner, const store::Request& request) {

@@ -59,6 +59,7 @@ class Archive final : public jobs::PlanKeeper {
   void finish(const jobs::KeptPlan& plan);
 
  private:
+  void write_refusal(const std::string& name);
   template <typename Work>
   auto timed(const char* operation, const Work& work);
   store::Store& database();

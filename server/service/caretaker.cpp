@@ -93,8 +93,9 @@ void Caretaker::take_up(const std::string& name) {
   if (!bytes) return;
   try {
     desk_.submit(decode_request(name, *bytes, caps_), kClient, jobs::Priority::kNormal).go_on_alone();
-  } catch (const jobs::CapExceeded&) {
-    // The next round has room, or another server.
+  } catch (const jobs::CapExceeded& reached) {
+    // Where too many wait, the next round has room, or another server.
+    if (!reached.retry_after()) archive_.refuse({.name = name}, std::current_exception());
   } catch (const store::StoreError&) {
     throw;
   } catch (const std::exception& defect) {

@@ -146,6 +146,27 @@ TEST(AcceptOnly, WhatIsDamagedInTheStoreIsRefusedOnce) {
   EXPECT_TRUE(server.remove("plans/damaged").ok());
 }
 
+TEST(AcceptOnly, WhatIsTooLargeSinceTheServersCapsWereLoweredIsRefused) {
+  const kcs::test::TemporaryFolder folder;
+  const store::StoreSettings settings{.database = "sqlite:" + (folder.path() / "plans.db").string()};
+  std::string name;
+  {
+    TestServer server({.planning_threads = 1, .store = settings});
+    const auto accepted = server.create(join(accept_only(blended()), endless_path()));
+    ASSERT_TRUE(accepted.status.ok()) << accepted.status.error_message();
+    name = accepted.message.name();
+  }
+  TestServer server({.caps = {.points_per_plan = 1000}, .store = settings});
+  Answer<v1::Plan> found;
+  ASSERT_TRUE(eventually([&] {
+    found = server.get(name);
+    return !found.status.ok();
+  }));
+  EXPECT_EQ(found.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_NE(found.status.error_message().find("points_per_plan = 1000"), std::string::npos)
+      << found.status.error_message();
+}
+
 TEST(AcceptOnly, RefusesAtOnceWhatNeedsNoPlanning) {
   TestServer server;
   EXPECT_TRUE(refuses_field(server.create({accept_only(options()), request(path({0, 0, 10, 0}, -1))}).status,
