@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kReport{50};  // those who watch are told no more often
 constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::milliseconds kDatabaseLook{500};  // at a run whose machine is elsewhere, or nowhere
+
+using Clock = std::chrono::steady_clock;
 
 // Where nobody is told apart, everybody is the controller.
 const std::string& controller_of(const Caller& caller) { return caller.identity.owner; }
@@ -35,12 +38,18 @@ runs::Run MachineRuns::begin(const Caller& caller, const std::string& machine, c
 }
 
 runs::Run MachineRuns::get(const std::string& name) {
-  try {
-    const auto run = machines_.machine_of(name)->run();
-    if (run && run->name == name) return *run;
-  } catch (const NotAttached&) {
-    // What was written down last.
-  }
+  const auto live = find_live(name);
+  return live ? *live : get_kept(name);
+}
+
+std::optional<runs::Run> MachineRuns::find_live(const std::string& name) const {
+  const Machines::MachinePointer machine = machines_.try_find(name.substr(0, name.find("/runs/")));
+  auto run = machine ? machine->run() : std::nullopt;
+  if (run && run->name != name) run.reset();
+  return run;
+}
+
+runs::Run MachineRuns::get_kept(const std::string& name) {
   const auto record = archive_.find_run(name);
   if (!record) throw NoSuchRun(name);
   return decode_record(*record);
@@ -83,14 +92,20 @@ void MachineRuns::watch(const Caller& caller, const std::string& name,
   while (!is_over(seen.state)) {
     caller.require_wanted();
     std::this_thread::sleep_for(kReport);
-    runs::Run now = get(name);
-    while (now == seen) {
-      caller.require_wanted();
-      std::this_thread::sleep_for(kLook);
-      now = get(name);
-    }
-    seen = std::move(now);
+    seen = await_change(caller, seen);
     send(seen);
+  }
+}
+
+runs::Run MachineRuns::await_change(const Caller& caller, const runs::Run& seen) {
+  for (auto looked = Clock::time_point::min();; std::this_thread::sleep_for(kLook)) {
+    caller.require_wanted();
+    auto now = find_live(seen.name);
+    if (!now && Clock::now() >= looked + kDatabaseLook) {
+      now = get_kept(seen.name);
+      looked = Clock::now();
+    }
+    if (now && *now != seen) return *std::move(now);
   }
 }
 

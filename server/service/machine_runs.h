@@ -41,6 +41,10 @@ class MachineRuns {
  private:
   // The machine that is on the run, if the caller may control it.
   Machines::MachinePointer require_control(const Caller& caller, const std::string& run, bool take_over);
+  // As its machine knows it; nothing if that is not attached, or not on it.
+  std::optional<runs::Run> find_live(const std::string& run) const;
+  runs::Run get_kept(const std::string& run);
+  runs::Run await_change(const Caller& caller, const runs::Run& seen);
   // As it is kept; nothing if it is over, or not kept.
   std::optional<store::RunRecord> open_run(const std::string& run);
   // A run that its machine, which is attached, is not on.

@@ -9,7 +9,7 @@
 
 #include "server/net/address.h"
 #include "server/version/version.h"
-#include "tests/observe/exposition_reader.h"
+#include "tests/observe/figures.h"
 #include "tests/service/kept_plans.h"
 #include "tests/service/live_client.h"
 #include "tests/service/test_server.h"
@@ -28,9 +28,7 @@ class Figures : public ::testing::Test {
 
   // The value of a series; 0 if there is none yet.
   double figure(const std::string& series) {
-    const auto answer = get("/metrics");
-    if (!answer) throw std::runtime_error("no figures: " + to_string(answer.error()));
-    const auto samples = observe::test::read_exposition(answer->body);
+    const auto samples = observe::test::read_figures(server_.server().http_address());
     const auto found = samples.find(series);
     return found == samples.end() ? 0 : found->second;
   }

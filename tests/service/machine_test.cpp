@@ -1,6 +1,7 @@
 // MachineService: plans run on machines, stop on their path, and go on from there.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <thread>
@@ -9,6 +10,7 @@
 #include "server/service/server.h"
 #include "server/store/store.h"
 #include "tests/files/temporary_folder.h"
+#include "tests/observe/figures.h"
 #include "tests/service/kept_plans.h"
 #include "tests/service/test_gateway.h"
 #include "tests/service/test_server.h"
@@ -469,6 +471,31 @@ TEST_F(MachineRunsTest, AreWatchedToTheirEnd) {
   EXPECT_EQ(seen.back().state(), v1::RUN_STATE_FINISHED);
   EXPECT_EQ(seen.back().plan_time_s(), seen.back().cycle_time_s());
   for (std::size_t i = 1; i < seen.size(); ++i) EXPECT_GE(seen[i].plan_time_s(), seen[i - 1].plan_time_s() - 1e-9);
+}
+
+TEST_F(MachineRunsTest, AreRarelyAskedOfTheStoreWhileTheyAreWatchedAndTheirMachineIsAway) {
+  start({.observe = {.http_listen = "127.0.0.1:0"}});
+  const auto asked = [this] {
+    auto figures = observe::test::read_figures(server_->server().http_address());
+    return figures["kcs_store_duration_seconds_count{operation=\"find_run\"}"];
+  };
+  const std::string plan = make_plan();
+  {
+    TestGateway gateway(machine_, server_->channel());
+    begin(plan);
+  }
+  ASSERT_TRUE(eventually([&] { return get().status.ok() && asked() > 0; }));
+  const double before = asked();
+  Call call;
+  call.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(1));
+  v1::WatchRunRequest request;
+  request.set_name(run_);
+  const auto reader = stub_->WatchRun(&call, request);
+  for (v1::Run run; reader->Read(&run);) {
+  }
+  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+  EXPECT_GE(asked() - before, 1);
+  EXPECT_LE(asked() - before, 5);  // twice a second
 }
 
 }  // namespace
