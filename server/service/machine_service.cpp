@@ -44,7 +44,7 @@ class Reports {
   Clock::duration silent_for() const { return Clock::now() - last_.load(); }
   // What was wrong with the last one, if it ended for that.
   void rethrow() const {
-    if (fault_) std::rethrow_exception(fault_);
+    if (over_ && fault_) std::rethrow_exception(fault_);
   }
 
  private:
@@ -64,7 +64,7 @@ class Reports {
   }
 
   grpc::ServerContext& context_;
-  std::exception_ptr fault_;  // before over_
+  std::exception_ptr fault_;  // not to be read before over_
   std::atomic<bool> over_ = false, ending_ = false;
   std::atomic<Clock::time_point> last_ = Clock::now();
   std::jthread thread_;  // last: it uses all the others

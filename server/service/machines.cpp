@@ -19,13 +19,15 @@ Machines::Attachment::Attachment(Machines& machines, const runs::MachineProfile&
                                  const runs::MachineReport& first)
     : machines_(machines) {
   std::unique_lock lock(machines_.mutex_);
-  Place* place = &machines_.places_[profile.name];
-  if (place->attached && !instance.empty() && place->instance == instance) {
-    place->superseded = true;
-    machines_.detached_.wait_for(lock, kFarewell, [&] { return !machines_.places_[profile.name].attached; });
-    place = &machines_.places_[profile.name];
+  const auto is_attached = [&] {
+    const auto place = machines_.places_.find(profile.name);
+    return place != machines_.places_.end() && place->second.attached;
+  };
+  if (is_attached() && !instance.empty() && machines_.places_[profile.name].instance == instance) {
+    machines_.places_[profile.name].superseded = true;
+    machines_.detached_.wait_for(lock, kFarewell, [&] { return !is_attached(); });
   }
-  if (place->attached) {
+  if (is_attached()) {
     throw AlreadyAttached(profile.name +
                           " is attached by another gateway: stop that one, or give this machine a name "
                           "of its own");
@@ -33,12 +35,13 @@ Machines::Attachment::Attachment(Machines& machines, const runs::MachineProfile&
   if (machines_.attached() >= machines_.most_) {
     throw jobs::CapExceeded("machines", machines_.most_, "detach one, or attach to another server", kGateRetry);
   }
-  place->attached = true;
-  place->superseded = false;
-  place->instance = instance;
-  const bool same = place->machine != nullptr && place->machine->profile() == profile;
-  if (!same) place->machine = std::make_shared<runs::Machine>(profile);
-  machine_ = place->machine;
+  Place& place = machines_.places_[profile.name];  // not before: names that are refused are not kept
+  place.attached = true;
+  place.superseded = false;
+  place.instance = instance;
+  const bool same = place.machine != nullptr && place.machine->profile() == profile;
+  if (!same) place.machine = std::make_shared<runs::Machine>(profile);
+  machine_ = place.machine;
   machine_->attach(first);
 }
 
