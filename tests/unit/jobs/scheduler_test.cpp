@@ -187,6 +187,7 @@ TEST(Scheduler, RefusesAClientWhoHasTooManyWaitingAndNoOther) {
 
 TEST(Scheduler, TellsWhenTryingAgainIsWorthIt) {
   FakeClock clock;
+  Blocker blocker;
   Scheduler scheduler({.threads = 1, .queue_length = 3, .client_waiting = 100, .client_running = 1}, clock.clock());
   for (int i = 0; i < 50; ++i) {
     std::promise<void> begun;
@@ -198,7 +199,6 @@ TEST(Scheduler, TellsWhenTryingAgainIsWorthIt) {
     begun.get_future().wait();
     while (scheduler.load().running > 0) std::this_thread::yield();
   }
-  Blocker blocker;
   scheduler.submit("anna", Priority::kNormal, blocker.step());
   blocker.wait_until_begun();
   for (int i = 0; i < 3; ++i) scheduler.submit("anna", Priority::kNormal, nothing());

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/unit/planning/paths.h"
+#include "tests/unit/planning/sanitizers.h"
 
 namespace kcs::planning {
 namespace {
@@ -320,7 +321,8 @@ TEST(DensePath, CostsNoMemoryWhereOneToleranceIsFarLess) {
   }
   const auto before = most_memory();
   plan(path, dense_options());
-  EXPECT_LT(most_memory() - before, 50'000) << "kB";
+  // AddressSanitizer keeps up to 256 MB of what was given back.
+  EXPECT_LT(most_memory() - before, kSanitizer ? 500'000 : 50'000) << "kB";
 }
 
 TEST(DensePath, KeepsTheToleranceOfEachSegment) {

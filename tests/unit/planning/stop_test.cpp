@@ -16,15 +16,12 @@
 #include "server/planning/plan_path.h"
 #include "server/planning/planner.h"
 #include "server/planning/stopped.h"
+#include "tests/unit/planning/sanitizers.h"
 
 namespace kcs::planning {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double kSlowdown = 15;
-#else
-constexpr double kSlowdown = 1;
-#endif
+constexpr double kSlowdown = kSanitizer ? 15 : 1;
 
 template <class Point>
 Toolpath path_of(std::size_t segments, double tolerance, Point point) {
