@@ -1,12 +1,12 @@
 // Several kcsd with one PostgreSQL, behind one HAProxy: deploy/compose, as processes of this machine.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/cluster/balancer.h"
 #include "tests/files/temporary_folder.h"
 #include "tests/store/postgres_server.h"
 #include "tests/system/child_process.h"
@@ -24,17 +24,17 @@ class Cluster {
   explicit Cluster(std::size_t places);
 
   // Of the balancer, for clients and gateways.
-  const std::string& address() const { return address_; }
+  const std::string& address() const { return balancer_.address(); }
 
-  std::size_t places() const { return places_.size(); }
-  bool runs(std::size_t place) const { return places_[place].kcsd != nullptr; }
+  std::size_t places() const { return servers_.size(); }
+  bool runs(std::size_t place) const { return servers_[place] != nullptr; }
   // Adds a server, and waits until the balancer sends calls to it.
   void start(std::size_t place);
   // kill -9.
   void kill(std::size_t place);
   // SIGTERM, which lets it end what it does; its exit code.
   int drain(std::size_t place);
-  ChildProcess& process(std::size_t place) { return places_[place].kcsd->process(); }
+  ChildProcess& process(std::size_t place) { return servers_[place]->process(); }
   // Time that all servers that run have taken of the processors so far, s.
   double cpu_seconds() const;
   // What the servers that run have logged.
@@ -43,19 +43,11 @@ class Cluster {
   std::optional<std::size_t> place_of(const std::string& machine) const;
 
  private:
-  struct Place {
-    std::string address, http_address;
-    std::unique_ptr<KcsdProcess> kcsd;  // null: does not run
-  };
-  std::filesystem::path write_balancer() const;
-  bool is_up(std::size_t place) const;
-
   TemporaryFolder folder_;
   PostgresServer postgres_;
-  std::filesystem::path settings_;
-  std::vector<Place> places_;
-  std::string address_, figures_address_;
-  std::unique_ptr<ChildProcess> balancer_;
+  std::string settings_;
+  Balancer balancer_;
+  std::vector<std::unique_ptr<KcsdProcess>> servers_;  // null: does not run
 };
 
 }  // namespace kcs::test
